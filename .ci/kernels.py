@@ -33,7 +33,7 @@ def common_runs() -> None:
         assert code == 0, model
     joint = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
     drums = {"height": 1.8, "bottom_width": 0.5, "top_width": 0.4, "drums": 3, "density": 2500.0, "joint": joint}
-    square, round_ = (st.Column.tapered(section=one, **drums) for one in ("rectangular", "circular"))
+    square, round_ = (st.Column.tapered(section=section, **drums) for section in ("rectangular", "circular"))
     links = (
         st.Dowel(joint=1, shear_stiffness=1e7, clearance=1e-4),
         st.Bar(joint=2, shear_stiffness=1e7, axial_stiffness=2e7),
@@ -60,12 +60,12 @@ def compile_all(entries: Path, names: Path) -> None:
     """Compile variants that a file lists for the level of this process; writes the names of their files to another one."""
     from numba.core.registry import cpu_target
 
-    found = []
+    files = []
     for module, name, kinds in pickle.loads(entries.read_bytes()):
         kernel = getattr(importlib.import_module(module), name)
         kernel.compile(kinds)
-        found.append(kernel._cache.file_of(kinds, cpu_target.target_context))
-    names.write_bytes(pickle.dumps(found))
+        files.append(kernel._cache.file_of(kinds, cpu_target.target_context))
+    names.write_bytes(pickle.dumps(files))
 
 
 def read_here(entries: Path) -> None:

@@ -17,7 +17,7 @@ from stylobate_report.numbers import WORDS
 ROOT = Path(__file__).parents[1]
 
 
-def found() -> Iterator[tuple[str, str]]:
+def messages_of_tree() -> Iterator[tuple[str, str]]:
     """Every message with the file that says it: templates of ``say``, words of tables, and prose of models."""
     for path in sorted((*ROOT.glob("src/**/*.py"), *ROOT.glob("packages/*/src/**/*.py"))):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
@@ -37,7 +37,7 @@ def renewed(tag: str, messages: dict[str, str]) -> Catalog:
     with file_of(tag).open("rb") as file:
         known = read_po(file, locale=tag)
     catalog = Catalog(locale=tag)
-    for text, _ in sorted(messages.items(), key=lambda one: (one[1], one[0])):
+    for text, _ in sorted(messages.items(), key=lambda entry: (entry[1], entry[0])):
         mine = known.get(text)
         catalog.add(text, mine.string if mine else "")
     return catalog
@@ -46,14 +46,16 @@ def renewed(tag: str, messages: dict[str, str]) -> Catalog:
 def main() -> int:
     """Renew the catalogues, or check that they are whole."""
     messages: dict[str, str] = {}
-    for text, place in found():
+    for text, place in messages_of_tree():
         messages.setdefault(text, place)
     lacks = []
     for tag in LANGUAGES:
         catalog, head = renewed(tag, messages), file_of(tag).read_bytes().partition(b"\n\n")[0]
         known = catalogue_of(file_of(tag))
-        lacks += [f"{tag}.po has no translation of {one!r}" for one in messages if one not in known]
-        lacks += [f"{tag}.po translates {one!r}, which is said nowhere" for one in known if one and one not in messages]
+        lacks += [f"{tag}.po has no translation of {text!r}" for text in messages if text not in known]
+        lacks += [
+            f"{tag}.po translates {text!r}, which is said nowhere" for text in known if text and text not in messages
+        ]
         if sys.argv[1:] != ["check"]:
             with file_of(tag).open("wb") as file:
                 file.write(head + b"\n\n")

@@ -34,7 +34,7 @@ def targets() -> dict[str, dict[str, str]]:
 
 def main(arguments: list[str]) -> int:
     smoke = "--smoke" in arguments
-    rest = [one for one in arguments if one != "--smoke"] or (EVERY_ENGINE if smoke else ["tests"])
+    rest = [argument for argument in arguments if argument != "--smoke"] or (EVERY_ENGINE if smoke else ["tests"])
     which = "processor and not slow" if smoke else "processor"
     command = [sys.executable, "-m", "pytest", "-q", "-m", which, "-p", "no:cacheprovider", *rest]
 
@@ -47,13 +47,13 @@ def main(arguments: list[str]) -> int:
         print(f"== {name}\n{done.stdout}== {name}: {end}", flush=True)
         return done.returncode == 0
 
-    asked = targets()
+    levels = targets()
     if smoke:
-        lowest = next(iter(asked))
-        asked = {lowest: asked[lowest]}
+        lowest = next(iter(levels))
+        levels = {lowest: levels[lowest]}
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        results = list(pool.map(passes, asked, asked.values()))
-    failed = [name for name, passed in zip(asked, results, strict=True) if not passed]
+        results = list(pool.map(passes, levels, levels.values()))
+    failed = [name for name, passed in zip(levels, results, strict=True) if not passed]
     if failed:
         print(f"failed: {', '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0

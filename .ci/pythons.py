@@ -24,15 +24,15 @@ OLDEST = "oldest"
 def pythons() -> dict[str, Path]:
     """An interpreter of each supported version: on the path, or where pyenv keeps them."""
     folders = sorted((Path.home() / ".pyenv" / "versions").glob("3.*"), key=lambda p: _numbers(p.name), reverse=True)
-    found = {}
+    interpreters = {}
     for version in SUPPORTED:
-        kept = [one / "bin" / "python3" for one in folders if one.name.startswith(f"{version}.")]
+        kept = [folder / "bin" / "python3" for folder in folders if folder.name.startswith(f"{version}.")]
         on_path = shutil.which(f"python{version}")
         for candidate in [*([Path(on_path)] if on_path else []), *kept]:
             if _version(candidate) == version:
-                found[version] = candidate
+                interpreters[version] = candidate
                 break
-    return found
+    return interpreters
 
 
 def environment(name: str, python: Path, lock: Path) -> Path:
@@ -46,7 +46,9 @@ def environment(name: str, python: Path, lock: Path) -> Path:
         run([python, "-m", "venv", folder])
         pip = [inside, "-m", "pip", "--disable-pip-version-check", "-qq", "install"]
         run([*pip, "--require-hashes", "-r", lock])
-        folders = [one.parent for one in (*ROOT.glob("packages/*/pyproject.toml"), *ROOT.glob("*/pyproject.toml"))]
+        folders = [
+            project.parent for project in (*ROOT.glob("packages/*/pyproject.toml"), *ROOT.glob("*/pyproject.toml"))
+        ]
         beside = [part for folder in folders for part in ("-e", folder)]
         run([*pip, "--no-deps", "--no-build-isolation", "-e", ROOT, *beside])
         made.write_text(lock.read_text())
@@ -87,13 +89,13 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--smoke", action="store_true")
     parser.add_argument("--only", help="one of them: 3.11, 3.12, 3.13 or oldest")
     options, rest = parser.parse_known_args(arguments)
-    found = pythons()
-    for missing in sorted(set(SUPPORTED) - set(found)):
+    interpreters = pythons()
+    for missing in sorted(set(SUPPORTED) - set(interpreters)):
         print(f"Python {missing} is not here: left out", flush=True)
     base, oldest = ROOT / "requirements" / "base.lock", ROOT / "requirements" / "oldest.lock"
-    wanted = {name: (python, base) for name, python in found.items()}
-    if SUPPORTED[0] in found:
-        wanted[OLDEST] = (found[SUPPORTED[0]], oldest)
+    wanted = {name: (python, base) for name, python in interpreters.items()}
+    if SUPPORTED[0] in interpreters:
+        wanted[OLDEST] = (interpreters[SUPPORTED[0]], oldest)
     if options.smoke:
         own = f"{sys.version_info[0]}.{sys.version_info[1]}"
         others = [name for name in wanted if name not in (own, OLDEST)]
@@ -101,8 +103,8 @@ def main(arguments: list[str]) -> int:
         if not wanted:
             print(f"no other Python than {own} is here: nothing to run", flush=True)
     if options.only:
-        wanted = {name: one for name, one in wanted.items() if name == options.only}
-    passed = [check(name, environment(name, *one), options.smoke, rest) for name, one in wanted.items()]
+        wanted = {name: setup for name, setup in wanted.items() if name == options.only}
+    passed = [check(name, environment(name, *setup), options.smoke, rest) for name, setup in wanted.items()]
     return 0 if all(passed) else 1
 
 

@@ -42,7 +42,7 @@ Path("sites.toml").write_text('branches = "tree.csv"\n' + "".join(sites))
 # ``stylobate survival sites.toml`` does the same.
 
 weighing = st.weigh(st.read_sites("sites.toml"))
-for branch, before, after in zip(weighing.asked.branches, weighing.prior, weighing.weight):
+for branch, before, after in zip(weighing.sites.branches, weighing.prior, weighing.weight):
     print(f"{branch.name}: {before:.2f} before, {after:.3f} after")
 figure = plots.draw_weighing(weighing)
 figure.savefig("many_sites.png")

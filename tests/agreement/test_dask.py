@@ -256,7 +256,7 @@ def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypa
     assert [results[n].peak_top_displacement for n in range(100)] == list(range(100))
 
 
-class Asked(Client):
+class ImpatientClient(Client):
     """Its workers ask for more before they have finished."""
 
     def __init__(self):
@@ -276,7 +276,7 @@ class Asked(Client):
 
 
 def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small(monkeypatch):
-    client = Asked()
+    client = ImpatientClient()
     cases = Cases(300, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
     work, numbers = HandOut(client, cases, Poisonous(), RunOptions()), []
     work._count_threads()
@@ -354,7 +354,7 @@ def test_the_next_chunk_begins_before_the_lanes_of_the_last_one_are_empty():
     threads[0].join()
     assert peaks == {number: float(number) for number in range(80)}
     assert set(BESIDE[:60]) == {20}  # no lane was empty until both chunks were in them
-    assert stream.left == 0
+    assert stream.remaining == 0
 
 
 def test_what_has_finished_is_sent_although_nothing_else_finishes():
@@ -377,7 +377,7 @@ def test_a_fault_in_a_run_is_told_and_the_lanes_go_on():
 
     with pytest.raises(ArithmeticError, match="a fault"):
         result(-1.0)
-    assert stream.left == 0
+    assert stream.remaining == 0
     [(number, measures)] = result(2.0)
     assert (number, measures.peak_top_displacement) == (0, 2.0)
 

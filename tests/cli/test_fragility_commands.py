@@ -223,7 +223,7 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
     )
     run(capsys, "risk", out, "--hazard", hazard, "--out", tmp_path / "risk", "--json")
     (result,) = read_results([tmp_path / "risk"])
-    own, ida = result.asked, read_results([out])[0].asked
+    own, ida = result.request, read_results([out])[0].request
     assert [column.digest for column in own.stood] == [ida.stood[0].digest]
     assert (own.models, own.motions) == (ida.models, ida.motions)
     (source,) = own.sources
@@ -267,7 +267,7 @@ def test_what_is_not_known_of_a_risk_is_said(place, capsys):
     assert pairs["runs"] == "96 of 12 records"
     assert pairs["column or state, as the table calls it"] == "not told"
     assert pairs["SHA-256 of runs.csv"] == digest(place / "runs.csv")
-    older = dataclasses.replace(result, asked=dataclasses.replace(result.asked, sources=()))
+    older = dataclasses.replace(result, request=dataclasses.replace(result.request, sources=()))
     assert "does not keep what runs" in str(sections_of(older, set()))
 
 
@@ -290,10 +290,10 @@ def test_states_are_chosen_among_as_columns_are(tmp_path, records, capsys):
     answer = run(capsys, "risk", out, "--of", "as found", "--hazard", hazard, "--out", tmp_path / "risk", "--json")
     assert (answer["name"], answer["fragility"]["runs"]) == ("as found", 60)
     (result,) = read_results([tmp_path / "risk"])
-    (origin,) = result.asked.sources
+    (origin,) = result.request.sources
     assert (origin["columns"], origin["not_told"], origin["command"][0]) == (["as found"], None, "states")
-    assert [column.name for column in result.asked.stood] == [rocking_block(2.0, 0.15).name]
-    assert [structure["state"] for structure in result.asked.structures] == ["as found"]
+    assert [column.name for column in result.request.stood] == [rocking_block(2.0, 0.15).name]
+    assert [structure["state"] for structure in result.request.structures] == ["as found"]
     assert "no runs of a column or state 'core'; it has as built" in run(capsys, "risk", out, "--of", "core", "--hazard",
                                                                         hazard, code=2).err  # fmt: skip
 

@@ -11,7 +11,7 @@ from stylobate.campaign.ledger import Holding
 from stylobate.cli.main import call
 from stylobate.models.drums.stepped import LaneEngine
 from stylobate.models.rocking.model import Rocking
-from stylobate.results.asked import CommandRequest
+from stylobate.results.command_request import CommandRequest
 
 HOUSNER = ["--model", "housner"]
 COLUMN = """name = "my"

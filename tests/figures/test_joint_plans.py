@@ -98,9 +98,9 @@ def test_round_drums_of_an_assembly_are_told_with_diameters_offsets_and_chips(tm
     write_column(column, tmp_path / "c.toml")
     (tmp_path / "a.toml").write_text('name = "pair"\n[[column]]\nfile = "c.toml"\nat = [[0.0, 0.0], [3.0, 0.0]]\n')
     pair = st.read_assembly(tmp_path / "a.toml")
-    plans = [plan for plan in joint_plans(pair) if plan.found]
-    assert [plan.found for plan in plans] == ["offset 40 mm to 120°\nchip 60 mm to 30°"] * 2
-    assert all(plan.marked and plan.said.endswith("⌀ 0.900 m") for plan in plans)
+    plans = [plan for plan in joint_plans(pair) if plan.as_found]
+    assert [plan.as_found for plan in plans] == ["offset 40 mm to 120°\nchip 60 mm to 30°"] * 2
+    assert all(plan.marked and plan.caption.endswith("⌀ 0.900 m") for plan in plans)
     labels = {text.get_text() for axes in plots.draw_views(pair).axes for text in axes.texts}
     assert {"3.000", "1.000", "2.000 m"} <= labels  # from axis to axis, each drum, and all of it
 

@@ -9,7 +9,7 @@ import pytest
 from stylobate.cli.console import in_options, write_json
 from stylobate.errors import InputError
 from stylobate.messages import Message, digits, joined, messages_in, restored, say
-from stylobate.results.asked import read_json
+from stylobate.results.command_request import read_json
 
 MESSAGE = say("{n} drums are shifted by up to {far}.", n=2, far=say("{value:.3g} mm", value=12.3456))
 

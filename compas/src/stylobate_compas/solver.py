@@ -161,9 +161,9 @@ def _blocks(model: BlockModel) -> tuple[str, list[Block]]:
 
 
 def _rigid(turn: np.ndarray, place: np.ndarray) -> np.ndarray:
-    found = np.eye(4)
-    found[:3, :3], found[:3, 3] = turn, place
-    return found
+    matrix = np.eye(4)
+    matrix[:3, :3], matrix[:3, 3] = turn, place
+    return matrix
 
 
 def _acts(group: Any) -> bool:
@@ -203,14 +203,14 @@ def _refuse_apart(model: BlockModel, blocks: list[Block], assembly: st.SpatialAs
     """Refuse contacts of the model between blocks that do not touch: its tolerance is wider than that of joints."""
     numbers = {body.name: i for i, body in enumerate(assembly.bodies)}
     names = {block.key: body_of(block.part.name) for block in blocks}
-    nodes: dict[Any, str] = {one.graphnode: names.get(str(one.guid), "") for one in model.elements()}
+    nodes: dict[Any, str] = {element.graphnode: names.get(str(element.guid), "") for element in model.elements()}
     touching = {frozenset(pair) for pair in assembly.touching}
     for edge in model.graph.edges():
         if not model.graph.edge_attribute(edge, "contacts"):
             continue
-        one, other = (nodes[node] for node in edge)
-        if one != other and frozenset((numbers[one], numbers[other])) not in touching:
+        block, other = (nodes[node] for node in edge)
+        if block != other and frozenset((numbers[block], numbers[other])) not in touching:
             raise st.InputError(
-                f"the model has a contact between {one!r} and {other!r}, whose faces do not touch; move them together, or "
+                f"the model has a contact between {block!r} and {other!r}, whose faces do not touch; move them together, or "
                 "compute contacts with a smaller tolerance."
             )

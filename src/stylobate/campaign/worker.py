@@ -49,11 +49,11 @@ class Part:
     options: RunOptions
     kind: bytes
     given: int = 0  # cases that are in lanes, or were
-    left: int = field(init=False)  # cases whose results have not been taken
+    remaining: int = field(init=False)  # cases whose results have not been taken
     _results: queue.Queue = field(init=False, default_factory=queue.Queue)
 
     def __post_init__(self) -> None:
-        self.left = len(self.cases)
+        self.remaining = len(self.cases)
 
     def put(self, result: tuple[int, Measures] | BaseException) -> None:
         """A case has finished, or the run of all of them has failed."""
@@ -62,7 +62,7 @@ class Part:
     def take(self, timeout: float) -> list[tuple[int, Measures]]:
         """(index, measures) of what has finished; the first is waited for no longer than so [s]."""
         results: list[tuple[int, Measures]] = []
-        while self.left:
+        while self.remaining:
             try:
                 result = self._results.get(timeout=0.0 if results else timeout)
             except queue.Empty:
@@ -70,7 +70,7 @@ class Part:
             if isinstance(result, BaseException):
                 raise result
             results.append(result)
-            self.left -= 1
+            self.remaining -= 1
         return results
 
 
@@ -81,14 +81,14 @@ class Stream:
         self._lock = threading.Lock()
         self._waiting: deque[Part] = deque()  # parts with cases that have not been given to lanes
         self._at_work = False
-        self.left, self.finished = 0, 0  # cases that have not finished, and that have
+        self.remaining, self.finished = 0, 0  # cases that have not finished, and that have
         self.each = 0.0  # time of a case, of those that finished in the last run [s]
 
     def add(self, part: Part) -> None:
         """Run the cases of a part, behind those that wait already."""
         with self._lock:
             self._waiting.append(part)
-            self.left += part.left
+            self.remaining += part.remaining
             if not self._at_work:
                 self._at_work = True
                 threading.Thread(target=self._work, name="stream", daemon=True).start()
@@ -97,7 +97,7 @@ class Stream:
     def wants_more(self) -> bool:
         """Whether the lanes would soon run empty."""
         waiting = WAITING / self.each if self.each else 0.0
-        return self.left <= LANES + max(FEWEST_WAITING, waiting)
+        return self.remaining <= LANES + max(FEWEST_WAITING, waiting)
 
     def _work(self) -> None:
         while True:
@@ -143,7 +143,7 @@ class Stream:
 
     def _ended(self, count: int) -> None:
         with self._lock:
-            self.left -= count
+            self.remaining -= count
             self.finished += count
 
 
@@ -242,7 +242,7 @@ def run_chunk(packed: bytes, motions: Sequence[Samples], topic: str) -> None:
 
     with _FIRST:
         streams = _STREAMS.setdefault(id(worker), [Stream() for _ in range(worker.state.nthreads)])
-    stream = min(streams, key=lambda candidate: candidate.left)
+    stream = min(streams, key=lambda candidate: candidate.remaining)
     results_of(chunk, motions, lambda message: worker.log_event(topic, message), worker.address, stream, more)
 
 
@@ -294,7 +294,7 @@ def results_of(
     before, request_sent = stream.finished, False
     stream.add(part)
     ready: list[tuple[int, Measures]] = []
-    while part.left:
+    while part.remaining:
         ready += [(chunk.numbers[index], measures) for index, measures in part.take(LOOK)]
         if not request_sent and stream.wants_more:
             request_sent = True

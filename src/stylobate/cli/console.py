@@ -302,14 +302,14 @@ class Lines:
     def __init__(self, title: str) -> None:
         self.title, self.due = title, FIRST_LINE
         self.began, self.pace = time.monotonic(), Pace()
-        self.told = -math.inf
+        self.reported = -math.inf
 
     def __call__(self, done: float, total: float) -> None:
         """So many are done, of so many."""
         time_left, now = self.pace.remaining(done, total), time.monotonic()
-        if now - self.began < self.due or done <= max(self.told, 0.0) or done >= total:
+        if now - self.began < self.due or done <= max(self.reported, 0.0) or done >= total:
             return
-        self.due, self.told = 1.5 * (now - self.began), done
+        self.due, self.reported = 1.5 * (now - self.began), done
         to_go = "" if time_left is None else f", about {time_left} to go"
         so_far = f"{done:.0f}" if float(done).is_integer() else f"{done:.3g}"
         logging.getLogger("stylobate").info("%s of %.10g %s%s.", so_far, total, self.title, to_go)

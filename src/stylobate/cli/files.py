@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas
 
     from ..campaign.campaign import Campaign
-    from ..results.asked import CommandRequest
+    from ..results.command_request import CommandRequest
 
 #: Options that say where and how it is computed and told, and not what is asked; whether a value follows.
 ELSEWHERE = {
@@ -109,9 +109,9 @@ class Files(list[Path]):
         ----------
         **what
             ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.CommandRequest.of` takes them,
-            or what :func:`stylobate.results.asked.kept_of` says of the runs that it rests on.
+            or what :func:`stylobate.results.command_request.kept_of` says of the runs that it rests on.
         """
-        from ..results.asked import CommandRequest, asked_file, others_in
+        from ..results.command_request import CommandRequest, others_in, request_file_name
 
         assert self.folder is not None
         earlier = what.pop("earlier", ())
@@ -126,7 +126,7 @@ class Files(list[Path]):
                 "them; give each result an `out` of its own to keep them apart."
             )
         request = dataclasses.replace(request, warnings=(*earlier, *console.WARNED))
-        self.json(request.to_dict(), asked_file(self.command))
+        self.json(request.to_dict(), request_file_name(self.command))
 
     def summary(self, result: dict[str, Any], name: str) -> None:
         """Write the JSON object of the command, which lists its files, as the last of them."""
@@ -143,14 +143,14 @@ def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
         return
     from ..atomic import OwnFiles
     from ..errors import InputError
-    from ..results.asked import CommandRequest, asked_file, others_in
+    from ..results.command_request import CommandRequest, others_in, request_file_name
 
-    with console.folder(out, *writes, asked_file(command)) as folder:
+    with console.folder(out, *writes, request_file_name(command)) as folder:
         assert folder is not None
         before = None
-        if (folder / asked_file(command)).is_file():
+        if (folder / request_file_name(command)).is_file():
             with suppress(InputError):  # damaged, or of a later version: it is replaced all the same
-                before = CommandRequest.read(folder / asked_file(command))
+                before = CommandRequest.read(folder / request_file_name(command))
         elif others := others_in(folder, command):
             names = [name for name in console.file_names(writes) if (folder / name).exists()]
             if names:

@@ -12,7 +12,7 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..probability.fragility import Fragility
-    from ..results.asked import Source
+    from ..results.command_request import Source
 
 
 @dataclass(frozen=True)
@@ -45,13 +45,13 @@ class Curves(o.Group):
         how = {"method": method, "seed": self.seed, "records_are_one": self.records_are_one}
         curves, used = fitted(sources, self.im, self.state, self.of, single=single, **how)
         warnings = [
-            text for source in used if source.asked is not None for text in source.asked.warnings if DRIFTS in text
+            text for source in used if source.request is not None for text in source.request.warnings if DRIFTS in text
         ]
         for text in dict.fromkeys(warnings) if any("pgv" in curve.summary()["im"] for curve in curves) else ():
             warn(text)
         return curves, used
 
-    def one(self, source: Path) -> tuple[Fragility, list[Source]]:
+    def single(self, source: Path) -> tuple[Fragility, list[Source]]:
         """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
         (curve,), used = self.fitted([source], single=True)
         return curve, used
@@ -72,7 +72,7 @@ def fragility(
 
     A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
     """
-    from ..results.asked import kept_of
+    from ..results.command_request import kept_of
     from ..results.fragilities import check_nrml, write_nrml
     from . import console
 

@@ -25,11 +25,11 @@ def risk(
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
     from ..probability.risk import read_hazard
     from ..probability.risk import risk as rate_of
-    from ..results.asked import kept_of
+    from ..results.command_request import kept_of
     from . import console
 
     curve = read_hazard(hazard, the_site(site))
-    fragility, used = curves.one(source)
+    fragility, used = curves.single(source)
     estimate = rate_of(fragility, curve)
     result = estimate.summary()
     with execution.files("risk", "risk.csv", "risk.json", "risk") as files:

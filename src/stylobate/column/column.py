@@ -162,7 +162,7 @@ class Column(DrumStack):
             pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
             what = f"drum {i + 1}", shape, float(self.masses[i]), float(self.inertias[i])
             fields = *what, place, angle, slope, float(at.lean[i]), pose
-            bodies.append(StandingDrum(*fields, drum=drum, found=self.as_found.of(i + 1)))
+            bodies.append(StandingDrum(*fields, drum=drum, as_found=self.as_found.of(i + 1)))
         return tuple(bodies)
 
     @cached_property

@@ -473,12 +473,12 @@ class StandingDrum(Standing):
     """A drum that stands in a column: its faces are told in axes along and normal to its lower one, inclined by ``lean``."""
 
     drum: Drum
-    found: FoundDrum
+    as_found: FoundDrum
 
     @cached_property
     def polygon(self) -> np.ndarray:
         """Corners from its centroid in these axes, counter-clockwise from the lower left [m], shape (k, 2)."""
-        drum, found_drum = self.drum, self.found
+        drum, found_drum = self.drum, self.as_found
         tilt = found_drum.tilt * DEGREE
         c, s = math.cos(tilt), math.sin(tilt)
         half, high = 0.5 * drum.top_width, drum.height

@@ -34,7 +34,7 @@ FAST = {"contract", "nsz", "arcp", "nnan"}
 
 
 #: Time of compiling after which it is told, and until it is told again [s].
-TOLD_AFTER, TOLD_EVERY = 2.0, 30.0
+REPORT_AFTER, REPORT_EVERY = 2.0, 30.0
 
 
 class _Wait(event.Listener):
@@ -44,7 +44,7 @@ class _Wait(event.Listener):
     """
 
     def __init__(self) -> None:
-        self.depth, self.spent, self.began, self.due = 0, 0.0, 0.0, TOLD_AFTER
+        self.depth, self.spent, self.began, self.due = 0, 0.0, 0.0, REPORT_AFTER
         self.bell: threading.Timer | None = None
 
     def on_start(self, event: event.Event) -> None:
@@ -70,13 +70,13 @@ class _Wait(event.Listener):
     def _tell(self) -> None:
         if self.depth == 0:
             return
-        if self.due == TOLD_AFTER:
+        if self.due == REPORT_AFTER:
             logging.getLogger("stylobate").info(
                 "compiling, which these settings need once on this machine: up to a minute, several where it is busy."
             )
         else:
             logging.getLogger("stylobate").info("still compiling, for %.0f s so far.", self.due)
-        self.due += TOLD_EVERY
+        self.due += REPORT_EVERY
         self._wind()
 
 

@@ -666,7 +666,7 @@ def cured(motion: Motion, cure: str) -> Motion:
     return motion
 
 
-def as_asked(cure: str) -> str:
+def cure_request(cure: str) -> str:
     """How to ask for the conditioning that :func:`cure_of` names."""
     return ", then ".join(f"`condition={step!r}`" for step in cure.split(THEN))
 

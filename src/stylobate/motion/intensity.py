@@ -13,7 +13,7 @@ import numpy as np
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_range, suggest, warn, within
 from ..messages import say
-from .conditioning import as_asked, cure_of, cured, drift_of
+from .conditioning import cure_of, cure_request, cured, drift_of
 from .motion import Motion, absolute_integral, arias, displacement, peak_velocity, square_integral, time_above
 from .pulses import pulse_match
 from .specs import ACCELERATION_UNITS, parse_time
@@ -51,7 +51,7 @@ def warn_of_drift(motion: Motion) -> None:
             remedy = say("take no displacement from it, as no conditioning that is known here mends it")
             if cure is not None:
                 words = say("correct it before a displacement is taken from it ({as_asked})")
-                remedy = words.of(as_asked=as_asked(cure))
+                remedy = words.of(as_asked=cure_request(cure))
             warn(
                 say(
                     "{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
@@ -79,7 +79,9 @@ def warn_of_velocity(motion: Motion, axes: str = "x") -> None:
         if cure is not None:
             velocity = peak_ground_velocity(cured(motion, cure), axis)
             remedy = say(
-                "correct it first ({as_asked}), which leaves {left:.3g} m/s", as_asked=as_asked(cure), left=velocity
+                "correct it first ({as_asked}), which leaves {left:.3g} m/s",
+                as_asked=cure_request(cure),
+                left=velocity,
             )
         warn(
             say(

@@ -239,7 +239,7 @@ class MotionRequest:
             Not one of them can be used.
         """
         if not self.several:
-            return Suite((_as_asked(self.motion(frequency_parameter, amplitude_open=amplitude_open)),), {})
+            return Suite((_without_origin(self.motion(frequency_parameter, amplitude_open=amplitude_open)),), {})
         if self.separate or any(Path(path).is_dir() for path in self.files):
             picked = None if self.component in COMPONENTS else self.component
             suite = read_suite(self._listed(), self.unit, self.dt, columns=self.columns, component=picked)
@@ -253,7 +253,7 @@ class MotionRequest:
                 refused[motion.name] = str(error)
         if not motions:
             raise InputError(f"no record of the suite can be used; the first reason: {next(iter(refused.values()))}")
-        return Suite(tuple(map(_as_asked, motions)), refused)
+        return Suite(tuple(map(_without_origin, motions)), refused)
 
     def _listed(self) -> list[Path]:
         paths: list[Path] = []
@@ -333,7 +333,7 @@ class MotionRequest:
         return motion if self.vertical else keep_axes(motion, "xy")
 
 
-def _as_asked(motion: Motion) -> Motion:
+def _without_origin(motion: Motion) -> Motion:
     """A motion of a suite as a record of its own, called as it was asked for: each is of another one."""
     return motion.replace(metadata={key: value for key, value in motion.metadata.items() if key != "record"})
 

@@ -621,9 +621,9 @@ class JointPlan:
     ----------
     below, above : array or None
         Corners of the upper face of what is below and of the lower face of what is above, shape (k, 2); None of a base.
-    said : str
+    caption : str
         Sizes.
-    found : str
+    as_found : str
         What is as found.
     links : tuple of (float, float)
         Where links cross it.
@@ -634,8 +634,8 @@ class JointPlan:
     title: str
     below: np.ndarray | None
     above: np.ndarray
-    said: str = ""
-    found: str = ""
+    caption: str = ""
+    as_found: str = ""
     links: tuple[tuple[float, float], ...] = ()
     offset: tuple[float, float] = (0.0, 0.0)
     marked: bool = False
@@ -788,7 +788,7 @@ def plan_reach(structure: Structure, plans: Sequence[JointPlan]) -> list[float]:
 
 def lines_under(plan: JointPlan) -> int:
     """Lines of words under a plan."""
-    return sum(1 + words.count("\n") for words in (plan.said, plan.found) if words)
+    return sum(1 + words.count("\n") for words in (plan.caption, plan.as_found) if words)
 
 
 def _centred(plan: JointPlan) -> np.ndarray:
@@ -819,7 +819,7 @@ def draw_plan(axes: Axes, plan: JointPlan, half: float) -> None:
     axes.set_axis_off()
     axes.set_title(plan.title, fontsize=8.0, weight="bold")
     lines = 0
-    for words, colour in ((plan.said, "black"), (plan.found, RED)):
+    for words, colour in ((plan.caption, "black"), (plan.as_found, RED)):
         if words:
             place = {"xycoords": "axes fraction", "xytext": (0.0, -2.0 - LINE * lines), "textcoords": "offset points"}
             axes.annotate(words, (0.5, 0.0), **place, ha="center", va="top", fontsize=6.5, color=colour)

@@ -84,8 +84,8 @@ def mechanism_of(response: Recorded) -> dict[str, Any]:
     return {
         "first": blocks.fell_at[0][0] if blocks.fell_at and m.collapsed else None,
         "azimuth_deg": azimuth,
-        "opened_most": _joint_told(response, "opening"),
-        "slid_most": _joint_told(response, "slip"),
+        "opened_most": _joint_facts(response, "opening"),
+        "slid_most": _joint_facts(response, "slip"),
         "sentence": sentence_of_blocks(response),
     }
 
@@ -110,7 +110,7 @@ def _first(response: Recorded) -> str:
 
 def _widest(response: Recorded) -> str:
     """The joints that opened and slid most, in a clause; empty where none did."""
-    opened, slid = (_joint_told(response, what) for what in ("opening", "slip"))
+    opened, slid = (_joint_facts(response, what) for what in ("opening", "slip"))
     words = []
     if opened is not None:
         words.append(say("the joint of {one} and {other} opened most, by {far}", **_joint(opened, "opening_m")))
@@ -127,7 +127,7 @@ def _joint(joint: dict[str, Any], far: str) -> dict[str, Any]:
     return {"one": joint["between"][0], "other": joint["between"][1], "far": _length(joint[far])}
 
 
-def _joint_told(response: Recorded, what: str) -> dict[str, Any] | None:
+def _joint_facts(response: Recorded, what: str) -> dict[str, Any] | None:
     """The joint with the largest opening or slip: until the first block fell, of slips at the end where none did.
 
     None where there is no joint, or none that did.

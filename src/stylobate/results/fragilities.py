@@ -17,7 +17,7 @@ from ..probability.fragility import Fragility
 from ..probability.fragility import fragility as fit
 from ..probability.lognormal import resolved_beta
 from ..verdicts.limit_states import parse_state
-from .asked import Source
+from .command_request import Source
 
 
 def fitted(

@@ -21,7 +21,7 @@ from ..probability.studies import StudyResult
 from ..response import Response, load_response
 from ..text_tables import check_file, printable
 from ..verdicts.domain import CollapseProbability, Domain
-from .asked import CommandRequest, asked_file, read_json
+from .command_request import CommandRequest, read_json, request_file_name
 
 if TYPE_CHECKING:
     import pandas
@@ -79,7 +79,7 @@ class Result:
     ----------
     kind : Kind
     folder : Path
-    asked : CommandRequest or None
+    request : CommandRequest or None
         None in folders of versions that did not keep it.
     files : tuple of FileFact
         Those that belong to it.
@@ -89,14 +89,14 @@ class Result:
 
     kind: Kind
     folder: Path
-    asked: CommandRequest | None
+    request: CommandRequest | None
     files: tuple[FileFact, ...]
     summary: dict[str, Any]
 
     @property
     def structures(self) -> Sequence[Structure]:
         """Subject, as far as the folder tells."""
-        return [] if self.asked is None else self.asked.stood
+        return [] if self.request is None else self.request.stood
 
     @property
     def name(self) -> str:
@@ -332,7 +332,9 @@ def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
             f"the runs in {printable(place)} are not all of one column; name their folders one by one to report "
             "them together."
         )
-    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FILES[Kind.RUNS].further, {}) | {"asked": read[0].asked}
+    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FILES[Kind.RUNS].further, {}) | {
+        "request": read[0].request
+    }
     return SeveralRuns(**facts, runs=read)
 
 
@@ -413,12 +415,12 @@ _READERS: dict[str, Callable[[Path], Result]] = {
 
 def _common(place: Path, kind: Kind, command: str, names: Iterable[str], summary: dict[str, Any]) -> dict[str, Any]:
     """Fields that every result has; a name without an ending is a picture."""
-    request_file = place / asked_file(command)
+    request_file = place / request_file_name(command)
     files = [name if "." in name else f"{name}.png" for name in (*names, request_file.name)]
     return {
         "kind": kind,
         "folder": place,
-        "asked": CommandRequest.read(request_file) if request_file.is_file() else None,
+        "request": CommandRequest.read(request_file) if request_file.is_file() else None,
         "files": _facts(place, dict.fromkeys(files)),
         "summary": summary,
     }

@@ -52,7 +52,7 @@ class Rim:
     cohesion: float = 0.0
 
     @property
-    def held(self) -> Holder:
+    def holder(self) -> Holder:
         """Its cohesion, as what holds at its middle."""
         place = self.in_space(self.middle)
         return Holder("", "shear", self.upper, self.lower, place, place, self.frame[:, :2], self.cohesion)
@@ -118,7 +118,7 @@ ROUNDS, CLOSE = 60, 1e-7
 BALANCED = 1e-9
 
 #: The most that a holder holds is found to this share of it [-], or of this share of the weight where it is less.
-MOST_WITHIN, NONE_HELD = 1e-3, 1e-3
+MOST_WITHIN, NO_FORCE = 1e-3, 1e-3
 
 #: A joint takes part in the mechanism with more than this share of the fastest one [-].
 MOVES = 1e-5
@@ -189,7 +189,7 @@ class ContactProgramme:
         self.weight = float(masses.sum()) * gravity
         self.shares = masses * gravity / self.weight
         self.rims = list(rims)
-        self.holders = [*holders, *(rim.held for rim in self.rims if rim.cohesion > 0.0)]
+        self.holders = [*holders, *(rim.holder for rim in self.rims if rim.cohesion > 0.0)]
         self.columns: list[np.ndarray] = []
         self.rows: list[np.ndarray] = []
         self.owner: list[int] = []
@@ -290,8 +290,8 @@ class ContactProgramme:
             if aim is None:
                 near = CLOSE * max(abs(solution.multiplier), 1e-3)
             else:
-                force = float(aim.way @ self.held_by(solution.forces, aim.holder)) / self.weight
-                near = MOST_WITHIN * max(force, NONE_HELD)
+                force = float(aim.way @ self.holder_force(solution.forces, aim.holder)) / self.weight
+                near = MOST_WITHIN * max(force, NO_FORCE)
             if gap <= near:
                 return solution
         raise StylobateError(
@@ -448,11 +448,11 @@ class ContactProgramme:
             sizes.append((math.hypot(*turning[:2]) * rim.half, math.hypot(*slip[:2]), abs(turning[2]) * rim.half))
         return np.array(sizes)
 
-    def held(self, forces: np.ndarray) -> np.ndarray:
+    def holder_forces(self, forces: np.ndarray) -> np.ndarray:
         """Size of what each holder holds [N], shape (holders,)."""
-        return np.array([float(np.linalg.norm(self.held_by(forces, k))) for k in range(len(self.holders))])
+        return np.array([float(np.linalg.norm(self.holder_force(forces, k))) for k in range(len(self.holders))])
 
-    def held_by(self, forces: np.ndarray, k: int) -> np.ndarray:
+    def holder_force(self, forces: np.ndarray, k: int) -> np.ndarray:
         """Force of a holder on its upper body along its axes [N]."""
         force = np.zeros(self.holders[k].axes.shape[1])
         for i in np.flatnonzero(np.array(self.owner[: len(forces)]) == k):
@@ -508,7 +508,7 @@ def gentlest(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, so
     return solved.x[:size].reshape(-1, 6) if solved.status == 0 else solution.rates
 
 
-def largest_held(
+def largest_holder_force(
     programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, multiplier: float, k: int
 ) -> tuple[float, np.ndarray | None]:
     """The most that a holder holds in any answer at a multiplier [g] or more [N], and where it pulls its upper body.
@@ -526,7 +526,7 @@ def largest_held(
         while ways and len(reach) < DIRECTIONS:
             way = ways.pop()
             solution = programme.converged(dead, live, capacity, aim=Aim(k, way, multiplier))
-            force = programme.held_by(solution.forces, k)
+            force = programme.holder_force(solution.forces, k)
             programme.forget(first, solution.forces)
             best = force if np.linalg.norm(force) > np.linalg.norm(best) else best
             reach.append((way, float(way @ force)))

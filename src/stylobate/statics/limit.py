@@ -28,7 +28,7 @@ from ..errors import InputError, StylobateError, check_choice, check_kind, check
 from ..messages import joined, say
 from ..models.rigid_block.block_stack import APART, LINE, SHEAR, BlockStack, Hold, holds, link_strains
 from ..notebook import NotebookSummary
-from .contacts import MOVES, ContactProgramme, Holder, InfeasibleError, Rim, Solved, gentlest, largest_held
+from .contacts import MOVES, ContactProgramme, Holder, InfeasibleError, Rim, Solved, gentlest, largest_holder_force
 
 # Loads and strength of a stack of blocks, for limit analysis and pushover alike; what cannot stand is refused.
 
@@ -155,13 +155,13 @@ STEPS = 40
 class CapacityLoad(NamedTuple):
     """Load of a programme with links of given capacities.
 
-    ``multiplier`` [g]; ``worth``, by how much a larger capacity of each link would raise it [g/N], and ``held``, what each
-    holds in this answer [N], shapes (links,); ``forces``, all of this answer.
+    ``multiplier`` [g]; ``worth``, by how much a larger capacity of each link would raise it [g/N], and ``link_forces``, the
+    force of each in this answer [N], shapes (links,); ``forces``, all of this answer.
     """
 
     multiplier: float
     worth: np.ndarray
-    held: np.ndarray
+    link_forces: np.ndarray
     forces: np.ndarray
 
 
@@ -204,7 +204,7 @@ def needed_forces(
     finite = np.where(np.isfinite(capacity), capacity, 0.0)
     # The worth of what is left to this share of its capacity is beyond the errors of the programme.
     yields = whole.worth * finite > NEARLY * max(abs(whole.multiplier), 1e-3)
-    least, idle = np.where(yields, np.sign(whole.held) * finite, 0.0), ~yields
+    least, idle = np.where(yields, np.sign(whole.link_forces) * finite, 0.0), ~yields
     answer = solve(np.where(idle, 0.0, capacity), same) if idle.any() else whole
     if answer.multiplier >= same:
         return LinkDemand(least, yields, idle, answer.forces)
@@ -223,11 +223,11 @@ def _least(
 ) -> tuple[float, bool]:
     """The least that a link must hold [N], with its sign, and whether that is its capacity."""
     less, most = capacity.copy(), float(capacity[k])
-    less[k], enough = 0.0, abs(float(whole.held[k]))
+    less[k], enough = 0.0, abs(float(whole.link_forces[k]))
     for _ in range(STEPS):
         load = solve(less, same)
         if load.multiplier >= same:
-            return float(load.held[k]) if less[k] else 0.0, False
+            return float(load.link_forces[k]) if less[k] else 0.0, False
         slope = float(load.worth[k])
         if load.multiplier == -np.inf and enough - less[k] > NEARLY * enough:  # without so much nothing stands
             less[k] = 0.5 * (less[k] + enough)
@@ -236,8 +236,8 @@ def _least(
             break
         less[k] += (whole.multiplier - load.multiplier) / slope
         if less[k] >= most * (1.0 - NEARLY):
-            return float(np.copysign(most, whole.held[k])), True
-    return float(np.copysign(less[k], whole.held[k])), False
+            return float(np.copysign(most, whole.link_forces[k])), True
+    return float(np.copysign(less[k], whole.link_forces[k])), False
 
 
 #: Strength counts as used up when less than this share of it is left [-].
@@ -818,7 +818,7 @@ class SpaceProgramme:
             axes = ((lower - upper) / np.linalg.norm(lower - upper))[:, None]
             return Holder(hold.name, hold.action, *bodies, upper, lower, axes, hold.capacity)
         frame = at.frame[link.joint - 1]
-        return Holder(hold.name, hold.action, *bodies, upper, upper, held_along(hold, frame), hold.capacity)
+        return Holder(hold.name, hold.action, *bodies, upper, upper, holder_axes(hold, frame), hold.capacity)
 
     def solve(self, azimuth: float, largest: bool = False) -> SpaceLimit:
         """The multiplier of horizontal forces in proportion to mass towards an azimuth [degrees].
@@ -838,7 +838,7 @@ class SpaceProgramme:
         return SpaceLimit(solution.multiplier + 0.0, joint + 1, mode, demand(programme, dead, live, solution, largest))
 
 
-def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
+def holder_axes(hold: Hold, frame: np.ndarray) -> np.ndarray:
     """Directions of the force that something across a joint puts on the body above, as columns; ``frame`` the joint's."""
     if hold.action == SHEAR:
         return frame[:, :2]
@@ -866,7 +866,7 @@ def demand(
     every = programme.capacities
 
     def borne(answer: Solved) -> CapacityLoad:
-        prices, holding_forces = answer.prices[links] / programme.weight, programme.held(answer.forces)[links]
+        prices, holding_forces = answer.prices[links] / programme.weight, programme.holder_forces(answer.forces)[links]
         return CapacityLoad(answer.multiplier, prices, holding_forces, answer.forces)
 
     def bear(link_capacities: np.ndarray, enough: float) -> CapacityLoad:
@@ -883,7 +883,7 @@ def demand(
     if not largest:
         return link_forces(holders, needed)
     least = solution.multiplier - SAME * max(abs(solution.multiplier), 1e-3)
-    most = [largest_held(programme, dead, live, least, k) for k in links]
+    most = [largest_holder_force(programme, dead, live, least, k) for k in links]
     towards = [None if way is None else tuple(way.tolist()) for _, way in most]
     return link_forces(holders, needed, np.array([size for size, _ in most]), towards)
 
@@ -1011,7 +1011,7 @@ def _holder(hold: Hold, number: Mapping[int, int]) -> Holder:
         low, high = np.array(link.low), np.array(link.high)
         return Holder(hold.name, LINE, *bodies, high, low, ((low - high) / link.length)[:, None], hold.capacity)
     middle = np.array(link.middle)
-    axes = held_along(hold, np.array(link.frame).T)
+    axes = holder_axes(hold, np.array(link.frame).T)
     return Holder(hold.name, hold.action, *bodies, middle, middle, axes, hold.capacity)
 
 

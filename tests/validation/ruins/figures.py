@@ -86,10 +86,10 @@ def seen_of(
 
     def measured(i: int, kind: str, exact: np.ndarray | float, sd: float, joint: int = 0) -> None:
         seen = exact + sd * stream.standard_normal(np.shape(exact) or 1)
-        label = f"{table.left[i].name}: {kind} {joint + 1}, {sd:g}"
+        label = f"{table.final_states[i].name}: {kind} {joint + 1}, {sd:g}"
         facts.append(Fact(i, kind, label, tuple(abs(seen) if kind == "largest" else seen), sd, joint))
 
-    for i, remains in enumerate(table.left):
+    for i, remains in enumerate(table.final_states):
         fell, joints, largest = remains.verdict[k] == FELL, range(remains.slip.shape[1]), float(remains.largest[k])
         facts.append(Fact(i, "state", f"{remains.name} {'fell' if fell else 'stands'}", (float(fell),)))
         if fell:
@@ -127,7 +127,7 @@ def calibration(ruins: Simulations, numbers: np.ndarray, table: Simulations, ins
         kept = np.ones(len(table), bool)
         if inside:
             kept[block] = False
-        rest = table.some(np.flatnonzero(kept & table.sound))
+        rest = table.subset(np.flatnonzero(kept & table.sound))
         for k in block.tolist():
             if not ruins.sound[k]:
                 continue
@@ -185,7 +185,7 @@ def other_law(table: Simulations, count: int) -> dict:
     for law, name in enumerate(table.prior.law):
         own = table.parameters["law"] == law
         made = np.flatnonzero(own & table.sound)[:count]
-        statistics = calibration(table, made, table.some(np.flatnonzero(~own)), False)
+        statistics = calibration(table, made, table.subset(np.flatnonzero(~own)), False)
         results[f"made with {name}"] = {quantity: statistics[quantity]["cover_90"] for quantity in UNITS} | {
             "ruins": statistics["ruins"]
         }
@@ -195,12 +195,12 @@ def other_law(table: Simulations, count: int) -> dict:
 def moved_by_hand(table: Simulations, count: int = 20) -> dict:
     """How many ruins without an earthquake are flagged: a column taken down, a drum pushed out; and of shaken ones."""
     stream, flags = np.random.default_rng(5), {"taken_down": 0, "pushed_out": 0}
-    sound = table.some(np.flatnonzero(table.sound))
+    sound = table.subset(np.flatnonzero(table.sound))
     for number in range(count):
-        moved = number % len(sound.left)
+        moved = number % len(sound.final_states)
         for what in flags:
             facts = []
-            for i, remains in enumerate(sound.left):
+            for i, remains in enumerate(sound.final_states):
                 down = what == "taken_down" and i == moved
                 facts.append(Fact(i, "state", f"{remains.name} {'fell' if down else 'stands'}", (float(down),)))
                 joint = int(stream.integers(remains.slip.shape[1]))

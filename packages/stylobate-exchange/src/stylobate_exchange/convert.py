@@ -580,7 +580,7 @@ def _largest(closed: Sequence[Closed], names: Sequence[str]) -> list[str]:
     words = []
     for kind in ("gap", "overlap"):
         closures = sorted(
-            (getattr(closure, kind), closure.one, closure.other)
+            (getattr(closure, kind), closure.first, closure.other)
             for closure in closed
             if getattr(closure, kind) > ROUNDING
         )

@@ -342,7 +342,7 @@ class Face(NamedTuple):
 class Closed(NamedTuple):
     """What lay between two faces that were brought into one plane: numbers of their stones, largest gap and overlap [m]."""
 
-    one: int
+    first: int
     other: int
     gap: float
     overlap: float
@@ -403,7 +403,7 @@ def brought_together(
             moved[stone], most = new, max(most, shift)
         else:
             kept.add(stone)
-    return moved, most, [closure for closure in closed.values() if not kept & {closure.one, closure.other}]
+    return moved, most, [closure for closure in closed.values() if not kept & {closure.first, closure.other}]
 
 
 def _faces(stone: int, shape: Frustum | Hull, facing: float) -> list[Face]:

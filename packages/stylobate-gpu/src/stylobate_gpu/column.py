@@ -3,11 +3,11 @@
 No mechanics stands here: what joints, bodies and lanes do is in ``laws.py``. A column stands on faces, without links: drum
 j + 1 has the loads j under it and j + 1 above it, the last of which is idle.
 
-Where it has the registers for them (``Laws.held``), a thread steps records of one lane of its own: the joint, the body on it
-and the body under it, the loads under and over that body, its lane, the ground. It leaves in shared memory what the threads
-of the neighbouring joints ask for in every step, takes from there what they have left, and puts the rest there whenever the
-column is looked at. Shared memory is what bounds the kernel otherwise: of 72 numbers a step that a thread in the plane reads
-or writes there, 24 are left.
+Where it has the registers for them (``Laws.own_records``), a thread steps records of one lane of its own: the joint, the
+body on it and the body under it, the loads under and over that body, its lane, the ground. It leaves in shared memory what
+the threads of the neighbouring joints ask for in every step, takes from there what they have left, and puts the rest there
+whenever the column is looked at. Shared memory is what bounds the kernel otherwise: of 72 numbers a step that a thread in
+the plane reads or writes there, 24 are left.
 
 What a column sums up, joints and drums add for themselves in ``sums``; it goes into the record of the lane at every look.
 Motion, forces and peaks have the bits of the loop over lanes where the compiler contracts products and sums alike; sums of
@@ -132,7 +132,7 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
     """
     joint_force, move, no_momentum, add_work, ground_at, look = laws[:6]
     of_body, of_joint, of_load, _, of_sums, of_ground = own
-    lanes, rows, own_records = of_sums["work"].shape[0], AHEAD + 1, laws.held is not None
+    lanes, rows, own_records = of_sums["work"].shape[0], AHEAD + 1, laws.own_records is not None
     site_record, ground_record = from_dtype(site_of_types), from_dtype(of_ground)
     body_record, joint_record, load_record, lane_record, sums_record, step_record = (
         from_dtype(of_one_lane(record)) for record in own
@@ -140,7 +140,7 @@ def _kernel_on(site_of_types: np.dtype, own: tuple[np.dtype, ...], laws: Laws):
     take_body, take_joint, _, take_lane, put_sums, take_ground = (copy_of(record, record.names or ()) for record in own)
     copy_body, copy_load, put_body, put_joint = (
         copy_of(record, tuple(name for name in names if name in (record.names or ())))
-        for record, names in zip((of_body, of_load, of_body, of_joint), laws.held or ((),) * 4, strict=True)
+        for record, names in zip((of_body, of_load, of_body, of_joint), laws.own_records or ((),) * 4, strict=True)
     )
 
     @cuda.jit

@@ -22,21 +22,21 @@ from stylobate.kernels.plane import look, motion, point_joint
 from stylobate.kernels.shared.frame import goes_on
 
 
-class Held(NamedTuple):
+class OwnRecords(NamedTuple):
     """What threads that step records of their own exchange, and what of these a step changes; names of fields.
 
     Parameters
     ----------
-    asked : tuple of str
+    to_joint : tuple of str
         What a step changes of a body, and the joint over it asks for.
-    told : tuple of str
+    to_body : tuple of str
         What a load tells the body under it.
     body, joint : tuple of str
         What steps change of a body and of a joint; of those fields that a joint does not have in its type, nothing.
     """
 
-    asked: tuple[str, ...]
-    told: tuple[str, ...]
+    to_joint: tuple[str, ...]
+    to_body: tuple[str, ...]
     body: tuple[str, ...]
     joint: tuple[str, ...]
 
@@ -58,7 +58,7 @@ class Laws(NamedTuple):
         Looks at a column between chunks, from its bodies, joints, lane, feed, watch, and what links hold.
     momentum : tuple of tuple
         Fields of records for it, without the lanes.
-    held : Held, optional
+    own_records : OwnRecords, optional
         For threads that step records of their own; by themselves they step those that their block shares.
     """
 
@@ -69,7 +69,7 @@ class Laws(NamedTuple):
     ground_at: Callable[..., None]
     look: Callable[..., None]
     momentum: tuple[tuple[str, tuple[int, ...]], ...]
-    held: Held | None = None
+    own_records: OwnRecords | None = None
 
 
 IN_PLANE = Laws(
@@ -80,9 +80,9 @@ IN_PLANE = Laws(
     look.ground_at,
     look.look_at_lane,
     (("px", ()), ("pz", ())),
-    Held(
-        asked=("x", "z", "c", "s", "vx", "vz", "w"),
-        told=("fx", "fz", "ml"),
+    OwnRecords(
+        to_joint=("x", "z", "c", "s", "vx", "vz", "w"),
+        to_body=("fx", "fz", "ml"),
         body=("x", "z", "th", "c", "s", "vx", "vz", "w"),
         joint=("over", "fs", "fn", "dn", "ds"),
     ),

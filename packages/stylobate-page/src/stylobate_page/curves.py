@@ -23,8 +23,8 @@ from stylobate.response import Response
 from stylobate.response.histories import ENERGY_TERMS
 from stylobate.verdicts.verdict import verdict
 
-from .asked import FRAGILITY, RESULT, STUDY
 from .forms import in_page_words
+from .job_request import FRAGILITY, RESULT, STUDY
 from .workshop import GROWING
 
 if TYPE_CHECKING:

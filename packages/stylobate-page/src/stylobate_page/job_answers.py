@@ -25,7 +25,9 @@ from stylobate.errors import InputError
 
 from . import columns
 from .answers import Answer, Missing, as_json, json_object, missing
-from .asked import (
+from .curves import curves, new_cells
+from .forms import FORMS
+from .job_request import (
     ASSEMBLY,
     COLUMN,
     FRAGILITY,
@@ -35,14 +37,12 @@ from .asked import (
     RUNS,
     STUDY,
     TABLE,
-    JobAsked,
+    JobRequest,
     hazard_files,
     report_of,
     requests,
     study,
 )
-from .curves import curves, new_cells
-from .forms import FORMS
 from .records import RECORDS, Records
 from .texts import assembly_of, ruin_of
 from .workshop import FILM, Job, Workshop
@@ -104,7 +104,7 @@ class JobAnswers:
     async def new(self, request: Request) -> Response:
         """Put a job into the queue."""
         body = await json_object(request)
-        job_request = checked(body, JobAsked, "the job")
+        job_request = checked(body, JobRequest, "the job")
         takes = FORMS[job_request.kind].takes if job_request.kind in FORMS else ("column",)
         stone = _structure(job_request) if "column" in takes else None
         source = self._source(job_request) if "source" in takes else None
@@ -130,7 +130,7 @@ class JobAnswers:
         job = await run_in_threadpool(self.workshop.submit, job_request.kind, title, needed, body, prepare)
         return Answer(self._shown(job), 201)
 
-    def _source(self, job_request: JobAsked) -> Job | None:
+    def _source(self, job_request: JobRequest) -> Job | None:
         """The job on whose runs another one rests; None where it brings a table of its own."""
         if job_request.table is not None:
             return None
@@ -287,7 +287,7 @@ def _copy_result(source: Path, target: Path) -> None:
     shutil.copytree(source, target, ignore=shutil.ignore_patterns("*.sqlite*"))
 
 
-def _write(job_request: JobAsked, stone: Structure | None, folder: Path) -> None:
+def _write(job_request: JobRequest, stone: Structure | None, folder: Path) -> None:
     """Write what the page sent with a job into its folder."""
     if stone is not None and job_request.assembly is None:
         write_column(stone.stack, folder / COLUMN)
@@ -299,7 +299,7 @@ def _write(job_request: JobAsked, stone: Structure | None, folder: Path) -> None
             (folder / name).write_text(text, encoding="utf-8")
 
 
-def _structure(job_request: JobAsked) -> Structure:
+def _structure(job_request: JobRequest) -> Structure:
     """Structure: a column, or an assembly, which has no domain."""
     if job_request.assembly is not None:
         if job_request.kind == "domain":
@@ -311,7 +311,7 @@ def _structure(job_request: JobAsked) -> Structure:
     return columns.column_of(job_request.column)
 
 
-def _title(job_request: JobAsked, name: str, records: Records) -> str:
+def _title(job_request: JobRequest, name: str, records: Records) -> str:
     """A job in a line."""
     form, shaken = FORMS.get(job_request.kind), ""
     if job_request.motion is not None:

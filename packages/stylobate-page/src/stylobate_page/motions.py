@@ -13,19 +13,19 @@ from stylobate.constants import g
 from stylobate.motion import Motion, MotionRequest
 from stylobate.motion.intensity import motion_summary, rocking_measures, warn_of_drift
 
-from .asked import MotionAsked
 from .forms import doubted, warned
+from .job_request import MotionChoice
 
 #: Most points of a plotted line, and of the path in plan.
 POINTS, PATH = 2400, 1500
 
 
-def describe(motion_choice: MotionAsked, files: Sequence[str], column: Column | None) -> dict[str, Any]:
+def describe(motion_choice: MotionChoice, files: Sequence[str], column: Column | None) -> dict[str, Any]:
     """Motion on the page.
 
     Parameters
     ----------
-    motion_choice : MotionAsked
+    motion_choice : MotionChoice
     files : sequence of str
         Of the record.
     column : Column, optional

@@ -29,10 +29,10 @@ from stylobate_exchange.convert import SURVEYS
 
 from . import columns, motions, texts
 from .answers import HANDLERS, Answer, found_wrong, json_object, missing
-from .asked import COLUMN, MotionAsked, safe_name
 from .forms import FORMS, LABELS, in_page_words
 from .guard import Guard, Keys
 from .job_answers import LINES, JobAnswers
+from .job_request import COLUMN, MotionChoice, safe_name
 from .records import FILE, JOBS, RECORDS, Record, Records
 from .workshop import Workshop
 
@@ -145,7 +145,7 @@ class Site:
     async def motion(self, request: Request) -> Response:
         """The plot and the measures of a motion."""
         body = await json_object(request)
-        motion_choice = checked(body.get("motion") or {}, MotionAsked, "the motion")
+        motion_choice = checked(body.get("motion") or {}, MotionChoice, "the motion")
         files = self.records.paths(motion_choice.text) if motion_choice.kind == "record" else []
         column = None
         if body.get("column"):

@@ -18,8 +18,8 @@ from stylobate.errors import InputError
 from stylobate_ruins.ruin import Ruin
 from stylobate_ruins.ruin_files import read_ruin
 
-from .asked import ASSEMBLY, COLUMN, RUIN
 from .forms import doubted, warned
+from .job_request import ASSEMBLY, COLUMN, RUIN
 
 #: Largest assembly file: the address in the browser holds it [characters].
 LARGEST = 100_000

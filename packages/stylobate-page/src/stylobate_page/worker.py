@@ -23,8 +23,8 @@ from typing import TYPE_CHECKING, Any
 from stylobate.cli import signals
 from stylobate.errors import StylobateError
 
-from .asked import ASSEMBLY, COLUMN, RUIN, STUDY
 from .forms import in_page_words
+from .job_request import ASSEMBLY, COLUMN, RUIN, STUDY
 from .workshop import FILM, GROWING, JOB
 
 if TYPE_CHECKING:

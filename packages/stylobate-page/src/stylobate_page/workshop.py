@@ -168,12 +168,12 @@ class Workshop:
         Each job has a folder in it.
     worker : sequence of str
         The command line of the process; it takes jobs on standard input.
-    told : callable
+    notify : callable
         Called, from any thread, when something has changed.
     """
 
     def __init__(self, folder: Path, worker: Sequence[str], notify: Callable[[], None] = lambda: None) -> None:
-        self.folder, self.worker, self.told = private(folder), list(worker), notify
+        self.folder, self.worker, self.notify = private(folder), list(worker), notify
         self._log = self.folder.parent / LOG
         self._log.unlink(missing_ok=True)
         loaded = [Job.load(path) for path in self.folder.iterdir() if path.is_dir()]
@@ -292,7 +292,7 @@ class Workshop:
         with self._lock:
             self.jobs.pop(job.id, None)
             self.version += 1
-        self.told()
+        self.notify()
         for process in self._leaving:  # it may have been paused a moment ago
             process.join(PATIENCE)
         shutil.rmtree(job.folder, ignore_errors=True)
@@ -482,12 +482,12 @@ class Workshop:
             self.version += 1
             job.version = self.version
             job.changed()
-        self.told()
+        self.notify()
 
     def _news(self) -> None:
         with self._lock:
             self.version += 1
-        self.told()
+        self.notify()
 
     def _forget_old(self) -> None:
         ended = [job for job in self.jobs.values() if not job.open]
@@ -528,16 +528,16 @@ class Process:
                 bufsize=1, start_new_session=True,
             )  # fmt: skip
         self.ready = False
-        self._told = False
+        self._stopped = False
         self._heard = heard
-        self._said: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
+        self._answers: queue.SimpleQueue[dict[str, Any] | None] = queue.SimpleQueue()
         self._thread = threading.Thread(target=self._listen, name="process", daemon=True)
         self._thread.start()
 
     @property
     def over(self) -> bool:
         """Whether it has ended, or has been told to: it takes no more jobs."""
-        return self._told or self._process.poll() is not None
+        return self._stopped or self._process.poll() is not None
 
     def give(self, job: dict[str, Any]) -> None:
         """Hand it a job; where it has ended meanwhile, :meth:`says` ends at once."""
@@ -547,7 +547,7 @@ class Process:
 
     def says(self) -> Iterator[dict[str, Any]]:
         """Words of the process, until it ends or is told to."""
-        while (what := self._said.get()) is not None:
+        while (what := self._answers.get()) is not None:
             yield what
 
     def end(self) -> int:
@@ -556,11 +556,11 @@ class Process:
 
     def tell(self) -> None:
         """Tell it to stop, and let it stand back meanwhile; nothing more is heard of it."""
-        self._told = True
+        self._stopped = True
         self._process.terminate()
         with suppress(OSError, AttributeError):  # it has ended, or this system has no such thing
             os.setpriority(os.PRIO_PGRP, self._process.pid, LAST)
-        self._said.put(None)
+        self._answers.put(None)
 
     def stop(self) -> None:
         """Tell it to stop, and wait until it has."""
@@ -585,7 +585,7 @@ class Process:
         with suppress(ValueError):  # its lines are closed
             for line in self._process.stdout:
                 self._take(line)
-        self._said.put(None)
+        self._answers.put(None)
 
     def _take(self, line: str) -> None:
         try:
@@ -598,4 +598,4 @@ class Process:
             self.ready = True
             self._heard()
         else:
-            self._said.put(what)
+            self._answers.put(what)

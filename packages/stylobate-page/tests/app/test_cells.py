@@ -3,8 +3,8 @@
 import numpy as np
 
 import stylobate as st
-from stylobate_page.asked import RESULT, STUDY
 from stylobate_page.curves import new_cells
+from stylobate_page.job_request import RESULT, STUDY
 
 DOMAIN = """
 column = "paper-monolithic"

@@ -12,8 +12,8 @@ from page_server import ended, served
 
 from stylobate.cli.main import words_of
 from stylobate_page import guard, records
-from stylobate_page.asked import JobAsked, requests
 from stylobate_page.guard import Guard
+from stylobate_page.job_request import JobRequest, requests
 from stylobate_page.records import FILE, generated_name
 
 
@@ -186,7 +186,7 @@ def test_values_do_not_become_options(client, run_request, value):
     run_request |= {"model": value, "replicates": value, "settings": {"law": value}}
     line = client.post("/api/jobs", json=run_request).json()["commands"][0]
     assert "--out=result" in line
-    (request,) = requests(JobAsked(**run_request), {})
+    (request,) = requests(JobRequest(**run_request), {})
     assert (request["model"], request["set"], request["out"]) == (value, [f"law={value}"], "result")
     words = words_of(request)
     assert words[:2] == ["run", "column.toml"]

@@ -193,7 +193,7 @@ def _heading(results: Sequence[Result], project: Project | None) -> str:
 
 def _names(results: Sequence[Result]) -> set[str]:
     """Names that people gave, of which a report translates nothing."""
-    requests = [result.asked for result in results if result.asked is not None]
+    requests = [result.request for result in results if result.request is not None]
     motions = [str(motion.get(key)) for request in requests for motion in request.motions for key in ("name", "record")]
     runs = [run for result in results for run in (result.runs if isinstance(result, SeveralRuns) else (result,))]
     motions += [str(run.response.provenance.get("motion")) for run in runs if isinstance(run, RunResult)]

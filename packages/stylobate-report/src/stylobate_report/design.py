@@ -65,7 +65,7 @@ def design_of(result: Result) -> Design | None:
         if not result.responses:
             return None
         values = design_values(SideBySide(list(result.responses.values()), list(result.responses)))
-        motions = result.asked.motions if result.asked is not None else ()
+        motions = result.request.motions if result.request is not None else ()
         each = [motion.get("peaks_g") or {} for motion in motions]
         peaks = [
             max((motion_peaks[axis] for axis in "xy" if axis in motion_peaks), default=0.0) for motion_peaks in each

@@ -33,12 +33,12 @@ from .inference import inference_result
 from .page import Exact, Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import (
-    asked_section,
     basis_section,
     headline,
     known_model,
     model_section,
     record_section,
+    request_section,
     sources_section,
     versions_of,
     warnings_of,
@@ -64,7 +64,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     run : RunResult, optional
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
-    request = result.asked
+    request = result.request
     columns = [structure.stack for structure in result.structures if structure.stack is not None]
     labels = _labels(result)
     if result.kind is Kind.STATES:
@@ -72,7 +72,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
     else:
         verdict, body = _TELL[result.kind](result)
         note = Note([headline(result, verdict[0]), _scope(result.kind)], f"verdict{verdict[1]}")
-        parts = [Section(say("Result"), [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
+        parts = [Section(say("Result"), [note, *warnings_of(result, _doubts(result))]), request_section(result)]
         alone = (
             result.kind in FROM_RUNS and "monuments" not in result.summary
         )  # several sites name no runs of one column
@@ -113,7 +113,7 @@ def sections_of(result: Result, run: RunResult | None = None) -> list[Section]:
 
 def _labels(result: Result) -> list[str]:
     """Of each structure the state that it was computed as; empty where there is one, or where its runs name none."""
-    kept = result.asked.structures if result.asked is not None else ()
+    kept = result.request.structures if result.request is not None else ()
     names = [str(structure.get("state") or "") for structure in kept]
     return names if len(names) == len(result.structures) > 1 else [""] * max(len(result.structures), 1)
 
@@ -123,8 +123,12 @@ def _states(result: Result, columns: Sequence[Column]) -> list[Section]:
     assert isinstance(result, Numbers)
     labels = [str(state["label"]) for state in result.summary["states"]]
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result, _doubts(result))]
-    parts = [Section(say("Result"), lead), Section(say("What was found"), states_items(result)), asked_section(result)]
-    parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
+    parts = [
+        Section(say("Result"), lead),
+        Section(say("What was found"), states_items(result)),
+        request_section(result),
+    ]
+    parts += [motions_section(result)] if result.request is not None and result.request.motions else []
     for number, (label, structure) in enumerate(zip(labels, result.structures)):
         column = structure.stack
         if number == 0 or column is None or not columns:

@@ -129,13 +129,13 @@ def _models(result: Result) -> list[str]:
         return [result.response.model]
     if isinstance(result, SeveralRuns):
         return [run.response.model for run in result.runs]
-    return [str(model["name"]) for model in result.asked.models] if result.asked is not None else []
+    return [str(model["name"]) for model in result.request.models] if result.request is not None else []
 
 
 def _sources(results: Sequence[Result]) -> list[Item]:
     """Programs, and the digest by which the signature holds for the files that are listed at the end."""
     listed = joined("", (say("{file.digest}  {file.name}\n", file=file) for _, file in files_of(results)))
-    computed = dict.fromkeys(result.asked.version for result in results if result.asked is not None)
+    computed = dict.fromkeys(result.request.version for result in results if result.request is not None)
     pairs = [
         (say("computed by stylobate"), joined(", ", computed) or say("not known")),
         (say("written by stylobate"), __version__),

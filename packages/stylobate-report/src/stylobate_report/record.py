@@ -28,10 +28,10 @@ SOURCES = say("Sources to cite")
 FOUND = ("limit_analysis_g",)
 
 
-def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
+def request_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
     """Request: the command as typed, and what else was chosen."""
     items: list[Item] = []
-    request = result.asked
+    request = result.request
     if request is not None and request.command:
         items.append(Code(typed(request.command)))
     pairs = list(more)
@@ -57,7 +57,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
 def basis_section(result: Result) -> Section:
     """The runs that a result rests on: where they lie, of which command, and what is not known of them."""
     title = say("What it was computed from")
-    sources = result.asked.sources if result.asked is not None else ()
+    sources = result.request.sources if result.request is not None else ()
     if not sources:
         text = say(
             "Not known: the folder does not keep what runs it was computed from. Compute it again to have them told "
@@ -152,7 +152,7 @@ def in_the_plane(result: Result) -> bool:
     if isinstance(result, RunResult):
         models = [(result.response.model, result.response.provenance.get("parameters"))]
     else:
-        model_tables = result.asked.models if result.asked is not None else ()
+        model_tables = result.request.models if result.request is not None else ()
         models = [(str(model["name"]), model.get("parameters")) for model in model_tables]
     known = [(known_model(name), parameters or {}) for name, parameters in models]
     return bool(known) and all(kind is not None and kind.is_plane(parameters) for kind, parameters in known)
@@ -166,11 +166,11 @@ def headline(result: Result, answer: str) -> str:
 def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
     """A note with everything that the reader must know before relying on the result; none if there is nothing."""
     warnings = list(more)
-    if result.asked is not None:
-        warnings += result.asked.warnings
-        if result.asked.version != __version__:
+    if result.request is not None:
+        warnings += result.request.warnings
+        if result.request.version != __version__:
             words = say("Computed by version {version}; this report is written by {own}.")
-            warnings.append(words.of(version=result.asked.version, own=__version__))
+            warnings.append(words.of(version=result.request.version, own=__version__))
     changed = [file.name for file in result.files if file.unchanged is False]
     if changed:
         alone = say("Changed by somebody since stylobate wrote it: {names}.")
@@ -239,7 +239,7 @@ def sources_section(citation: Citation) -> Section:
 
 def versions_of(result: Result) -> dict[str, str]:
     """Of the package, Python and the machine, as far as the folder tells."""
-    request = result.asked
+    request = result.request
     if request is None:
         return {}
     versions = {"stylobate": request.version, "Python": request.python, "machine": request.machine}

@@ -26,11 +26,11 @@ from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sente
 from .page import Exact, Facts, Item, Note, Rows, Section
 from .pictures import picture
 from .record import (
-    asked_section,
     headline,
     model_section,
     noted,
     record_section,
+    request_section,
     sources_section,
     titled,
     versions_of,
@@ -59,8 +59,11 @@ def run_sections(run: RunResult) -> list[Section]:
     """All sections of one run."""
     r, summary = run.response, run.summary
     column = r.structure.stack
-    motion_facts = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
-    parts = [Section(say("Verdict"), [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
+    motion_facts = run.request.motions[0] if run.request is not None and run.request.motions else None
+    parts = [
+        Section(say("Verdict"), [_verdict(run), *warnings_of(run, _doubts(run))]),
+        request_section(run, _request_rows(r)),
+    ]
     parts.append(structure_section(r.structure))
     parts.append(motion_section(run.motion, r, motion_facts, column))
     parts += sequence_section(run)
@@ -156,14 +159,14 @@ def _doubts(run: RunResult) -> list[str]:
                 energy_imbalance=percent(abs(r.energy_imbalance)),
             )
         )
-    motions = run.asked.motions if run.asked is not None else ()
+    motions = run.request.motions if run.request is not None else ()
     if left_out := (motions[0].get("left_out") if motions else None) or r.provenance.get("left_out"):
         words = say("left out of the motion, which the model does not take: {names}.")
         doubts.append(words.of(names=joined("; ", left_out)))
     return doubts
 
 
-def _asked(r: Response) -> list[tuple[str, str]]:
+def _request_rows(r: Response) -> list[tuple[str, str]]:
     p = r.provenance
     pairs = [(say("structure"), Exact(r.structure.name)), (say("motion"), Exact(p.get("motion", n.NONE)))]
     pairs.append((say("model"), say("{r.model}, step {r.time_step:.3g} s, {r.steps} steps", r=r)))
@@ -363,7 +366,7 @@ def worst_of(runs: Sequence[RunResult]) -> int:
 
 def _record_of(run: RunResult) -> str:
     """The record that its motion is of; the motion itself where the folder does not tell."""
-    motions = run.asked.motions if run.asked is not None else ()
+    motions = run.request.motions if run.request is not None else ()
     return str((motions[0].get("record") if motions else None) or run.folder.name)
 
 

@@ -29,7 +29,7 @@ MOST, DIGITS = 40, 12
 CORRECTED = re.compile(r"baseline|mean|trend|filter of order \d+, (?!0 )")
 
 #: Facts of a record, in words.
-SAID = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
+STATION_FACTS = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
 
 
 def motion_section(
@@ -68,7 +68,7 @@ def motion_section(
     metadata = known.get("metadata") or {}
     facts += [
         (say(key.replace("_", " ")), say(str(metadata[key])) if key == "stage" else Exact(metadata[key]))
-        for key in SAID
+        for key in STATION_FACTS
         if metadata.get(key) not in (None, "", "None")
     ]
     done = list(known.get("processing") or motion.processing)
@@ -109,7 +109,7 @@ def motion_section(
 
 def motions_section(result: Result) -> Section:
     """The motions of a result of several: which records, components, azimuths, and by how much they were scaled."""
-    motions = result.asked.motions if result.asked is not None else ()
+    motions = result.request.motions if result.request is not None else ()
     body = [
         [
             Exact(motion.get("name")), axes_in_words(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
@@ -178,7 +178,7 @@ def _done(motion: Mapping[str, Any]) -> list[str]:
     metadata = motion.get("metadata") or {}
     known = [
         say(str(metadata[key])) if key == "stage" else Exact(metadata[key])
-        for key in SAID
+        for key in STATION_FACTS
         if metadata.get(key) not in (None, "", "None")
     ]
     left_out = [say("left out: {what}", what=part) for part in motion.get("left_out") or ()]

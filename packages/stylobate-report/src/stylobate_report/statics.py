@@ -114,7 +114,7 @@ def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         (say("steps of the path"), n.plain(s.get("steps"))),
         (say("end of the path"), n.plain(s.get("stop"))),
     ]
-    limit = result.asked.options.get("limit_analysis_g") if result.asked is not None else None
+    limit = result.request.options.get("limit_analysis_g") if result.request is not None else None
     if isinstance(limit, float):
         pairs.insert(1, (say("limit analysis, independently"), digits(limit, ".4g")))
     caption = say("Pushover curve, and the column half way along it; the joint that governs is red.")
@@ -135,7 +135,7 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
                 )
             ],
         )
-    options = result.asked.options if result.asked is not None else {}
+    options = result.request.options if result.request is not None else {}
     loads = {
         key: options[key]
         for key in ("pattern", "base_tilt", "compressive_strength", "direction")

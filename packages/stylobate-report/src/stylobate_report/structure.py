@@ -274,10 +274,10 @@ def _found_at(structure: Structure) -> list[list[str]]:
         [
             str(k),
             say("{names} – {names_2}", names=names[joint.lower], names_2=names[joint.upper]),
-            plan.found,
+            plan.as_found,
         ]
         for k, (plan, joint) in enumerate(plans, 1)
-        if plan.found
+        if plan.as_found
     ][:MOST]
 
 

@@ -134,8 +134,8 @@ def test_every_kind_is_told_from_its_files(place):
     assert {result.kind for result in read_results([place / "out statics <i>"])} == {Kind.PUSHOVER, Kind.LIMIT}
     for folder in folders(place):
         for result in read_results([folder]):
-            assert result.asked is not None
-            assert str(folder) in result.asked.command
+            assert result.request is not None
+            assert str(folder) in result.request.command
             assert all(fact.unchanged for fact in result.files), [fact for fact in result.files if not fact.unchanged]
 
 
@@ -267,7 +267,7 @@ def test_states_have_a_page_of_their_own(place, tmp_path):
     (result,) = read_results([place / "out states <i>"])  # not as a study, whose plan lies there as well
     assert result.kind is Kind.STATES
     assert [structure.digest for structure in result.structures] == [
-        result.asked.structures[k]["digest"] for k in range(2)
+        result.request.structures[k]["digest"] for k in range(2)
     ]
     (file,) = write_report([result], tmp_path / "r.html")
     page = Page(file.read_text(encoding="utf-8"))

@@ -33,7 +33,7 @@ BUMPS = 100
 
 def matches(fact: Fact, table: Simulations) -> np.ndarray:
     """Draws that leave an event as it is seen, shape (draws,)."""
-    final_state = table.left[fact.structure]
+    final_state = table.final_states[fact.structure]
     if fact.kind == "state":
         return final_state.verdict == (FELL if fact.value[0] else STANDS)
     if fact.kind == "body":
@@ -43,7 +43,7 @@ def matches(fact: Fact, table: Simulations) -> np.ndarray:
 
 def left_by(fact: Fact, table: Simulations) -> np.ndarray:
     """What every draw leaves in the place of a number that is seen, shape (draws, values)."""
-    final_state = table.left[fact.structure]
+    final_state = table.final_states[fact.structure]
     if fact.kind in VECTORS:
         return plan(fact, final_state)
     alone = {"fell towards": final_state.towards, "largest": final_state.largest}

@@ -236,7 +236,7 @@ def infer(
     survival = None if ruin.survival is None else (ruin.survival, hazard_of(ruin.survival))
     options = {"folder": out, "campaign": campaign}
     table = simulations_of(ruin.simulated, ruin.prior, ruin.model, ruin.simulations, ruin.seed, **options)
-    sound = table.some(np.flatnonzero(table.sound))
+    sound = table.subset(np.flatnonzero(table.sound))
     lasted = None if survival is None else outlasting(sound, ruin.facts, *survival, ruin.seed)
     answers = Answers(sound, ruin.facts, ruin.seed, None if lasted is None else lasted.weights)
     _refuse_few(answers)

@@ -17,7 +17,7 @@ from stylobate.errors import InputError, as_typed, check_choice, check_range, ch
 from stylobate.motion.intensity import parse_measure
 from stylobate.probability.lognormal import BETAS
 from stylobate.probability.risk import Hazard, read_hazard
-from stylobate.results.asked import read_json
+from stylobate.results.command_request import read_json
 from stylobate.results.fragilities import fitted
 from stylobate.text_tables import printable
 

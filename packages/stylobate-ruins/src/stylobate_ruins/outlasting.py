@@ -177,7 +177,7 @@ def changes(table: Simulations, facts: list[Fact]) -> tuple[np.ndarray, np.ndarr
     """Draws that would have changed what stood before the earthquake, and what stands since, shape (draws,) each."""
     before, after = np.zeros((2, len(table)), dtype=bool)
     for fact in facts:
-        state = table.left[fact.structure]
+        state = table.final_states[fact.structure]
         stood = state.verdict == STANDS
         if fact.kind == "state":
             before |= state.verdict == FELL

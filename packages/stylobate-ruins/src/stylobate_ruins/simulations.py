@@ -111,14 +111,14 @@ class Simulations:
     prior : Prior
     parameters : dict of array
         What each draw is, by name, shape (draws,).
-    left : tuple of Left
+    final_states : tuple of Left
         A structure each.
     seed : int
     """
 
     prior: Prior
     parameters: dict[str, np.ndarray]
-    left: tuple[FinalState, ...]
+    final_states: tuple[FinalState, ...]
     seed: int = 0
 
     def __len__(self) -> int:
@@ -128,14 +128,20 @@ class Simulations:
     def sound(self) -> np.ndarray:
         """Draws under which every structure could be computed, shape (draws,)."""
         return (
-            np.all([state.verdict != FAILED for state in self.left], axis=0) if self.left else np.ones(len(self), bool)
+            np.all([state.verdict != FAILED for state in self.final_states], axis=0)
+            if self.final_states
+            else np.ones(len(self), bool)
         )
 
-    def some(self, which: np.ndarray) -> Simulations:
+    def subset(self, which: np.ndarray) -> Simulations:
         """Some of the draws."""
-        states = [FinalState(state.name, *(getattr(state, name)[which] for name in FIELDS)) for state in self.left]
+        states = [
+            FinalState(state.name, *(getattr(state, name)[which] for name in FIELDS)) for state in self.final_states
+        ]
         return replace(
-            self, parameters={name: values[which] for name, values in self.parameters.items()}, left=tuple(states)
+            self,
+            parameters={name: values[which] for name, values in self.parameters.items()},
+            final_states=tuple(states),
         )
 
     @property
@@ -147,7 +153,7 @@ class Simulations:
         law = data.pop("law").astype(int)
         data["law"] = np.array(self.prior.law)[law]
         words = np.array(["stands", "fell", "failed"])
-        for state in self.left:
+        for state in self.final_states:
             data[f"{state.name}: state"] = words[state.verdict]
             data[f"{state.name}: fell towards [deg]"] = state.towards
             data[f"{state.name}: largest slip [m]"] = np.where(state.verdict == STANDS, state.largest, np.nan)
@@ -279,7 +285,7 @@ class _Table:
 
     def write(self, place: Path, made: Simulations) -> None:
         """Keep the table, whole or not at all."""
-        arrays = {f"{i} {name}": getattr(state, name) for i, state in enumerate(made.left) for name in FIELDS}
+        arrays = {f"{i} {name}": getattr(state, name) for i, state in enumerate(made.final_states) for name in FIELDS}
         arrays |= {f"parameter {name}": values for name, values in made.parameters.items()}
         content = io.BytesIO()
         np.savez(content, digest=np.array(self.digest), **arrays)

@@ -48,7 +48,7 @@ class Weighing(NotebookSummary):
 
     Parameters
     ----------
-    asked : Sites
+    sites : Sites
     likelihood : mapping of str to array
         Of what is seen, by branch and draw, shape (b, k), for each of :data:`WAYS`.
     without, alone : mapping of str to array
@@ -62,7 +62,7 @@ class Weighing(NotebookSummary):
     warnings : tuple of str
     """
 
-    asked: Sites
+    sites: Sites
     likelihood: Mapping[str, np.ndarray]
     without: Mapping[str, np.ndarray]
     alone: Mapping[str, np.ndarray]
@@ -74,7 +74,7 @@ class Weighing(NotebookSummary):
     @cached_property
     def prior(self) -> np.ndarray:
         """Weights before, shape (b,)."""
-        weight = np.array([branch.weight for branch in self.asked.branches], dtype=float)
+        weight = np.array([branch.weight for branch in self.sites.branches], dtype=float)
         return weight / weight.sum()
 
     def posterior(self, likelihood: np.ndarray) -> np.ndarray:
@@ -96,10 +96,10 @@ class Weighing(NotebookSummary):
     @cached_property
     def information(self) -> list[dict[str, Any]]:
         """Bits that each monument tells of the branches: by itself, and beside all others."""
-        names = dict.fromkeys(monument.name for monument in self.asked.monuments)
+        names = dict.fromkeys(monument.name for monument in self.sites.monuments)
         rows = []
         for name in names:
-            seen = "; ".join(monument.words for monument in self.asked.monuments if monument.name == name)
+            seen = "; ".join(monument.words for monument in self.sites.monuments if monument.name == name)
             alone, others = self.posterior(self.alone[name]), self.posterior(self.without[name])
             rows.append(
                 {
@@ -142,12 +142,12 @@ class Weighing(NotebookSummary):
         number = len(self.information)
         who = f"{number} monuments" if number > 1 else self.information[0]["monument"]
         if len(self.prior) == 1:
-            (only,) = self.asked.branches
+            (only,) = self.sites.branches
             chance = self.likelihood[WAYS[0]].mean()
             return f"By {only.name} what is seen of {who} has a probability of {chance:.2g}."
         if self.bits < SILENT:
             return f"What is seen of {who} does not tell the branches apart."
-        names = [branch.name for branch in self.asked.branches]
+        names = [branch.name for branch in self.sites.branches]
         up, down = int(np.argmax(self.weight - self.prior)), int(np.argmin(self.weight - self.prior))
         text = (
             f"What is seen of {who} speaks for {names[up]} (weight {percent(self.prior[up])} before, "
@@ -157,7 +157,7 @@ class Weighing(NotebookSummary):
         if number > 1:
             most = max(self.information, key=lambda row: row["bits_beside_others"])
             text += f"; {most['monument']} tells most beside the others"
-        if not self.asked.branches[0].sources and number > 1:
+        if not self.sites.branches[0].sources and number > 1:
             shared = self.posterior(self.likelihood[WAYS[2]])[up]
             text += (
                 f". Earthquakes are taken as each site's own: did all shake every site, {names[up]} would weigh "
@@ -176,7 +176,7 @@ class Weighing(NotebookSummary):
         return {
             "sentence": self.sentence,
             "bits": self.bits,
-            "earthquakes": "from sources, shared" if self.asked.branches[0].sources else "each site its own",
+            "earthquakes": "from sources, shared" if self.sites.branches[0].sources else "each site its own",
             "hazards": [
                 {
                     "hazard": branch.name,
@@ -190,14 +190,14 @@ class Weighing(NotebookSummary):
                     "probability_high": float(high[k]),
                     "annual_rates": {
                         state.called: float(rate)
-                        for state, rate in zip(self.asked.monuments, self.annual_rate[:, k], strict=True)
+                        for state, rate in zip(self.sites.monuments, self.annual_rate[:, k], strict=True)
                     },
                 }
-                for k, branch in enumerate(self.asked.branches)
+                for k, branch in enumerate(self.sites.branches)
             ],
             "monuments": self.information,
-            "im": self.asked.monuments[0].capacity.measure,
-            "unit": self.asked.monuments[0].capacity.unit,
+            "im": self.sites.monuments[0].capacity.measure,
+            "unit": self.sites.monuments[0].capacity.unit,
             "sites": [
                 {
                     "site": site,

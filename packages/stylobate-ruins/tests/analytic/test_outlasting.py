@@ -112,7 +112,7 @@ def test_law_under_which_it_would_have_fallen_is_doubted(tmp_path):
     table = rock()
     law = np.random.default_rng(2).integers(0, 2, DRAWS).astype(float)
     table.parameters["law"] = law
-    table.left[0].verdict[law == 1.0] = STANDS
+    table.final_states[0].verdict[law == 1.0] = STANDS
     result = outlasting(table, [STANDING], since(tmp_path, since=-7000.0), HAZARD, 1)
     odds = result.weights[law == 0.0].sum() / result.weights[law == 1.0].sum()
     assert odds == pytest.approx(np.exp(-9000.0 * HAZARD.at(FELLS)), rel=0.15)  # classes and shares of 10,000 draws
@@ -136,10 +136,10 @@ def test_dates_that_are_none_are_refused(tmp_path, fields, message):
 
 def test_prior_must_begin_where_nothing_changes(tmp_path):
     table = rock()
-    strong = table.some(np.flatnonzero(table.parameters["pgv_m_s"] > 0.45))
+    strong = table.subset(np.flatnonzero(table.parameters["pgv_m_s"] > 0.45))
     with pytest.raises(st.InputError, match="begin lower"):
         outlasting(
-            strong.some(np.flatnonzero(strong.parameters["pgv_m_s"] > FELLS)),
+            strong.subset(np.flatnonzero(strong.parameters["pgv_m_s"] > FELLS)),
             [STANDING],
             since(tmp_path, since=0.0),
             HAZARD,

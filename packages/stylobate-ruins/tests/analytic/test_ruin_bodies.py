@@ -42,7 +42,7 @@ def made(count: int = 2000) -> Simulations:
 @pytest.mark.slow
 def test_bodies_of_runs_are_told_one_by_one():
     prior = st.Prior(pgv=(1.4, 1.5), period=(1.0, 1.1), stiffness_damping=(3e-4,))
-    (state,) = simulations_of([PAIR], prior, st.DistinctElement3D(), 1, 1, campaign=Campaign(tail=2.0)).left
+    (state,) = simulations_of([PAIR], prior, st.DistinctElement3D(), 1, 1, campaign=Campaign(tail=2.0)).final_states
     assert state.fallen.tolist() == [[True, False]]  # a pillar six times as high as wide; a block slides: 0.5 < 1.2/0.6
     assert state.verdict.tolist() == [FELL]
     assert state.moved.shape == state.slip.shape == (1, 2, 2)
@@ -57,10 +57,10 @@ def test_facts_of_bodies_match_draws():
     assert [fact.kind for fact in fallen.facts] == ["state", "body", "body", "moved"]
     facts = fallen.facts
     answers = Answers(table, facts, 1)
-    down = table.left[0].fallen[:, 0]
+    down = table.final_states[0].fallen[:, 0]
     assert np.array_equal(answers.matching(facts), np.flatnonzero(down))
     moved = facts[-1]
-    off = answers.values[moved] - table.left[0].moved[:, 1]
+    off = answers.values[moved] - table.final_states[0].moved[:, 1]
     assert off.std() == pytest.approx(0.01, rel=0.2)  # measured as badly as the ruin was; many standard errors
     assert [fact.kind for fact in answers.alone(moved)] == ["state", "body", "moved"]
     assert moved not in answers.without(facts[2])

@@ -116,14 +116,14 @@ def test_the_bayes_factor_takes_no_part_in_what_says_nothing():
 def test_the_bayes_factor_is_that_of_likelihoods():
     # A state by itself: shares of draws over chances without an earthquake. A slip of 22 mm known to 3 mm cannot be none,
     # and one known to 10 mm is exp(-2.5) times as likely so.
-    both = np.array([state.verdict for state in TABLE.left])
+    both = np.array([state.verdict for state in TABLE.final_states])
     share = np.mean((both[0] == STANDS) & (both[1] == FELL))
     factor, at_least = answers_to(ruin_of(STATES)).bayes_factor()
     assert factor == pytest.approx(share / (0.99 * 0.01), rel=1e-9)
     assert not at_least
     known = {"A": {"state": "stands", "offsets": [(1, 0.01, -0.02, 0.01)]}, "B": {"state": "fell"}}
     matching = (both[0] == STANDS) & (both[1] == FELL)
-    off = TABLE.left[0].slip[matching, 0] - np.array([0.01, -0.02])
+    off = TABLE.final_states[0].slip[matching, 0] - np.array([0.01, -0.02])
     likely = np.exp(-0.5 * (off**2).sum(axis=1) / 1e-4).sum() / DRAWS
     assert answers_to(ruin_of(known)).bayes_factor()[0] == pytest.approx(
         likely / (0.99 * 0.01 * np.exp(-2.5)), rel=1e-9
@@ -156,5 +156,5 @@ def test_few_draws_that_carry_all_are_told():
 
 def test_facts_are_measured_as_badly_as_they_were():
     fact = Fact(0, "twist", "twist", (3.0,), 5.0, 2)
-    off = Answers(TABLE, [fact], 1).values[fact][:, 0] - TABLE.left[0].twist[:, 2]
+    off = Answers(TABLE, [fact], 1).values[fact][:, 0] - TABLE.final_states[0].twist[:, 2]
     assert off.std() == pytest.approx(5.0, rel=4.0 * (2.0 * DRAWS) ** -0.5)

@@ -159,7 +159,7 @@ class Dowel(Pin):
         super()._check()
         self._joint(self.joint)
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """By Hetényi's beam in either drum, and the weakest of Johansen's modes."""
         return Numbers(**self.across(self.embedment), **self.stone(), lift=value_or(self.embedment, math.inf))
 
@@ -257,7 +257,7 @@ class Bar(Dowel):
                 "a bar has neither material nor axial_stiffness; give one, or make it a dowel.", "axial_stiffness"
             )
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """As a dowel, and against opening by even bond over its embedment in both drums."""
         across, axial = self.across(self.embedment), self._anchored()
         governs = f"{across.pop('governs')}; {axial.pop('governs')}"
@@ -340,7 +340,7 @@ class Clamp(Pin):
                 "a clamp has neither material nor axial_stiffness; give one of the two.", "axial_stiffness"
             )
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """Numbers of a clamp of a length between its legs.
 
         Notes
@@ -482,7 +482,7 @@ class Tie(Line):
                 f"a {self.kind} has neither material nor axial_stiffness; give one of the two.", "axial_stiffness"
             )
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """A straight bar of its length: E A/ℓ and f_y A."""
         governs = "as given"
         stiffness, capacity, ultimate = self.axial_stiffness, self.axial_capacity, self.ultimate_elongation
@@ -569,7 +569,7 @@ class Layer(Link):
                 "friction_coefficient",
             )
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """All as given."""
         return Numbers(
             friction_coefficient=self.friction_coefficient,
@@ -672,7 +672,7 @@ class Pad(Link):
                 f"a pad parts the stones of a joint with a cohesion of {joint.cohesion:g} Pa; give that joint cohesion = 0."
             )
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """E/t and G/t; of rubber bonded by friction E_c = E (1 + 2 k S²), in series with its bulk modulus (Lindley)."""
         normal, shear, governs = self.normal_stiffness, self.shear_stiffness, "as given"
         if self.material is not None:

@@ -240,7 +240,7 @@ class Link:
     def _check(self) -> None:
         """Refuse data that cannot be; a kind adds its own."""
 
-    def held(self, site: Site) -> Numbers:
+    def resistance(self, site: Site) -> Numbers:
         """Resistance at a site; each kind by its own formulas."""
         raise NotImplementedError
 
@@ -280,7 +280,7 @@ class Link:
             raise InputError(f"a {self.kind} is between no bodies; give between = ['a', 'b'], two names.", "between")
         at, to = self.ends
         site = Site() if self.lies == "joint" else Site(length_of(self.kind, at, to))
-        return self.restated(self.held(site), at=at, to=to, name=self.name, between=self.between, made=self)
+        return self.restated(self.resistance(site), at=at, to=to, name=self.name, between=self.between, made=self)
 
     def restated(self, numbers: Numbers, **place: Any) -> Self:
         """A link of this kind between two bodies that holds so much; ``to`` is kept where the kind has two ends."""

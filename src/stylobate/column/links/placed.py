@@ -397,7 +397,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
             f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}.", "joint"
         )
     upper = link.joint - 1
-    numbers = link.held(Site(math.nan, float(stack.joint_areas[upper]), stack.joint_edge(upper)))
+    numbers = link.resistance(Site(math.nan, float(stack.joint_areas[upper]), stack.joint_edge(upper)))
     faces = [(stack.drums[upper], "bottom", link.joint)]
     faces += [(stack.drums[upper - 1], "top", upper)] if upper else []
     pin, edge = link.mark != "sheet", math.inf
@@ -452,7 +452,7 @@ def _line(link: Line, stack: Stack) -> PlacedLink:
     length = math.dist(low, high)
     if length < 1e-3:
         raise InputError(f"a {link.kind} has no length: both its ends are at {_place(low)}; move one of them.", "to")
-    numbers = link.held(Site(length))
+    numbers = link.resistance(Site(length))
     if link.through_stone:
         _check_hole(link, stack, low, high, numbers.diameter)
     else:

@@ -106,7 +106,7 @@ def look_at_top(top, o, w, l):
     w.x[l] = 0.0
     w.z[l] = 0.0
     w.px[l] = 0.0
-    w.held[l] = 0.0
+    w.link_moment[l] = 0.0
 
 
 @law
@@ -141,7 +141,7 @@ def look_at_joint(u, v, e, o, f, w, j, l):
     outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
     down = max(o.g[l] - w.vmax[l], 0.0)
     against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
-    link_moment = w.held[l] * each  # by links
+    link_moment = w.link_moment[l] * each  # by links
     going, lost = going_and_lost(out, outward, out * down, against * up + link_moment)
     w.going[l] = 1.0 if going else w.going[l]
     parted = hi <= lo
@@ -202,7 +202,7 @@ def observe(body, joint, lane, feed, watch, hold, drums):
         e = joint[j]
         if hold.shape[0] > 0:
             for l in range(lanes):
-                w.held[l] = hold[j].moment[l]
+                w.link_moment[l] = hold[j].moment[l]
         for l in range(lanes):
             look_at_joint(u, v, e, o, f, w, j, l)
     for l in range(lanes):
@@ -221,7 +221,7 @@ def look_at_lane(body, joint, o, f, w, hold, l):
     for i in range(1, drums + 1):
         look_at_drum(body[i], w, l)
     for j in range(drums):
-        w.held[l] = hold[j].moment[l] if j < hold.shape[0] else 0.0
+        w.link_moment[l] = hold[j].moment[l] if j < hold.shape[0] else 0.0
         look_at_joint(body[j + 1], body[j], joint[j], o, f, w, j, l)
     keep_peaks(w, l)
 

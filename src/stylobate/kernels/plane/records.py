@@ -44,7 +44,7 @@ positions at t_n, velocities at t_{n−1/2})::
                ktop kopen kturn     the peaks as they were when last no part was on its way out
                when which side      collapse: step, joint, side (±1); −1 while there is none
                stood          where the middle of the topmost face stood [m]
-               m x z px held  running sums over the drums above a joint; what links hold about it [N m]
+               m x z px link_moment  running sums over the drums above a joint; what links hold about it [N m]
 """
 
 import numpy as np
@@ -114,7 +114,9 @@ def types(joint, damped, points, lanes, linked):
         ),
         "watch": np.dtype(
             counts
-            + _fields("amax vmax th tc ts stood top open turn wmax wide going ktop kopen kturn m x z px held", lanes)
+            + _fields(
+                "amax vmax th tc ts stood top open turn wmax wide going ktop kopen kturn m x z px link_moment", lanes
+            )
         ),
         "hold": hold,
         "pair": PAIR_TYPE,

@@ -307,7 +307,7 @@ def returnable(fn, last, gain, before, depth, vn, ease, dt, reserve):
 def alone(p):
     """Vector area, volume and work of the contact of two shapes, where no other shape has a part in it."""
     put(p.va, of(p.total[NORMAL : NORMAL + 3]))
-    p.whole, p.held = p.total[VOLUME], p.en
+    p.whole, p.en_part = p.total[VOLUME], p.en
 
 
 @kernel
@@ -323,9 +323,9 @@ def gather(pair, count, shape, p):
         if same and q.share > 0.0 and q.total[INNER] > 0.0 and (q.a != p.a or q.b != p.b):
             s = along(s, 1.0, of(q.total[NORMAL : NORMAL + 3]))
             p.whole += q.total[VOLUME]
-            p.held += q.en
+            p.en_part += q.en
     if p.whole > own:
-        p.held *= own / p.whole
+        p.en_part *= own / p.whole
         if dot(s, s) > 0.0:
             put(p.va, s)
 
@@ -338,7 +338,7 @@ def press(p, a, u, b, v, vertex, numbers, now, simplex):
     n = scaled(1.0 / area, of(p.va))
     mean_depth = p.whole / area
     volume = total[VOLUME]
-    p.en = p.held
+    p.en = p.en_part
     if p.whole > volume:
         area = max(dot(of(total[NORMAL : NORMAL + 3]), n), LEAST * area)
     c = along(of(total[REF : REF + 3]), 1.0 / volume, of(total[MOMENT : MOMENT + 3]))

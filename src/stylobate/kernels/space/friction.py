@@ -100,7 +100,7 @@ def turned(f, n, angle):
 
 
 @long_law
-def held_by(q):
+def spring_energy_of(q):
     """Energy that the friction springs of a contact hold [J]."""
     shear, torsion = stored((of(q.s), q.st, q.kc, q.jc), (of(q.fs), q.ft, q.kf, q.jf))
     return shear + torsion

@@ -159,7 +159,7 @@ def look(state):
 
 
 @strict
-def held_by(e, l):
+def spring_energy_of(e, l):
     """Energy that the friction springs of a joint hold [J]."""
     core = row(e.s, l), e.st[l], e.kc[l], e.jc[l]
     shear, torsion = stored(core, (row(e.fs, l), e.ft[l], e.kf[l], e.jf[l]))
@@ -191,7 +191,7 @@ def energies(state, which, out):
         elastic = spring_energy = kinetic = height = 0.0
         for q in range(joint.shape[0]):
             elastic += joint[q].en[l]
-            spring_energy += held_by(joint[q], l)
+            spring_energy += spring_energy_of(joint[q], l)
         half = 0.5 * o.last[l]
         g = o.g[0, l], o.g[1, l], o.g[2, l]
         push = along(base_now(feed[0], l), 1.0, g)

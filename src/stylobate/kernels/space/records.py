@@ -32,8 +32,8 @@ Legend::
                ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
                gap            how far apart the shapes are along n [m], where they do not touch
                share          of the bed in what the shapes hold, 0 where they do not touch;  total[SUMS]  of their overlap
-               va[3] whole    vector area [m²] and volume [m³] of the contact that theirs is a part of;  held  its share of
-                              the work that has pressed that [J]
+               va[3] whole    vector area [m²] and volume [m³] of the contact that theirs is a part of;  en_part  its share
+                              of the work that has pressed that [J]
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
                mu iu ju       the same of the upper face, iu × ju into its body
@@ -110,7 +110,7 @@ def types() -> dict[str, np.dtype]:
             counts("a b joint side")
             + fields("n ta tb f d ra rb va s fs at", 3)
             + fields("total", SUMS)
-            + fields("t dt kc jc st ft kf jf fn en area gap share whole held pn pf pd")
+            + fields("t dt kc jc st ft kf jf fn en area gap share whole en_part pn pf pd")
         ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")

@@ -12,7 +12,7 @@ from ..run_codes import CHUNK, FAILED
 from ..shared.links import add_to_ledger
 from .acting import let_go
 from .bed import alone, foresee, forget, gather, press, touching
-from .friction import held_by
+from .friction import spring_energy_of
 from .joints import on_joint
 from .links import add_links, look_at_links
 from .motion import check, kinetic_and_gravitational, move
@@ -144,10 +144,10 @@ def ledger(state, a, out):
     spring_energy = 0.0
     for j in range(joint.shape[0]):
         elastic += joint[j].en
-        spring_energy += held_by(joint[j])
+        spring_energy += spring_energy_of(joint[j])
     for k in range(now.pairs):
         elastic += pair[k].en
-        spring_energy += held_by(pair[k])
+        spring_energy += spring_energy_of(pair[k])
     kinetic, height = kinetic_and_gravitational(body, now, (a[0], a[1], a[2]))
     out[0] = now.work
     out[1] = kinetic

@@ -210,7 +210,7 @@ def with_link_histories(histories: Histories, states: Sequence[dict[str, Any]]) 
     return histories if links is None else replace(histories, links=links)
 
 
-def held_at_start(column: Column) -> float:
+def pretension_energy(column: Column) -> float:
     """Elastic energy of pretensioned links [J]."""
     return sum(0.5 * link.pretension**2 / link.axial_stiffness for link in acting(column) if link.pretension)
 

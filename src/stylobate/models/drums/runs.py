@@ -26,7 +26,15 @@ from ..shared.ground import AT_REST, Spans, ground_histories
 from ..shared.lanes import NOT_COMPUTED, longest_piece
 from ..shared.stable_step import whole_steps
 from ..start import check_takes_pose
-from .links import acting, held_at_start, link_measures, link_snapshot, set_free, with_link_histories, without_tension
+from .links import (
+    acting,
+    link_measures,
+    link_snapshot,
+    pretension_energy,
+    set_free,
+    with_link_histories,
+    without_tension,
+)
 from .records import LaneRecords, Packed
 
 
@@ -299,7 +307,7 @@ class LaneRuns:
         """
         if not column.pretensioned:
             return 0.0
-        link_energy = held_at_start(column)
+        link_energy = pretension_energy(column)
         try:
             alone = self.energies_without_tension(lane, without_tension(column))
         except InputError:  # it cannot stand
@@ -435,13 +443,13 @@ class LaneRuns:
         links = acting(self.column(lane)) if self.tied else ()
         return link_measures(links, self.link, lane, float(self.dt[lane]))
 
-    def held_by_links(self, lane: int) -> float:
+    def link_energy(self, lane: int) -> float:
         """Energy of pretension at the start, in links and in the joints that they press, which may be set free [J]."""
-        return held_at_start(self.column(lane)) + float(self.pressed[lane]) if self.tied else 0.0
+        return pretension_energy(self.column(lane)) + float(self.pressed[lane]) if self.tied else 0.0
 
     def mechanical(self, lane: int, change: ledger.Row) -> float:
         """Energy above that at rest after a change of the ledger, with what links may set free [J]."""
-        return float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
+        return float(change[1] + change[2] + change[3] + self.rest[lane]) + self.link_energy(lane)
 
     def start_energy(self, lane: int, change: ledger.Row) -> float:
         """Energy at the start of a run, for its imbalance: the elastic one, or that of the pose and the velocity [J]."""

@@ -280,7 +280,7 @@ class Riders:
         self.block, self.number = block, len(cases)
         self._riding = np.zeros(block.lanes, dtype=bool)  # lanes with a case that has not been collected
         self._riding[1 : 1 + len(cases)] = True
-        self.found: dict[int, Measures] = {}
+        self.decided: dict[int, Measures] = {}
         for lane, case in enumerate(cases, 1):
             try:
                 block.load(lane, case)
@@ -298,13 +298,13 @@ class Riders:
 
     def measures(self) -> tuple[Measures, ...]:
         """Bring all of them to their ends; what each comes down to."""
-        while len(self.found) < self.number:
+        while len(self.decided) < self.number:
             self.block.advance()
             self.collect()
-        return tuple(self.found[lane] for lane in sorted(self.found))
+        return tuple(self.decided[lane] for lane in sorted(self.decided))
 
     def _keep(self, lane: int, measures: Measures) -> None:
-        self.found[lane] = measures
+        self.decided[lane] = measures
         self._riding[lane] = False
 
 

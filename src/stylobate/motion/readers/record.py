@@ -13,7 +13,7 @@ import numpy as np
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning, warn
 from ...messages import joined, percent, say
-from ..conditioning import as_asked, best_of, cures_of
+from ..conditioning import best_of, cure_request, cures_of
 from ..events import moment_of
 from ..motion import MAX_SAMPLES, STRONGEST, Motion, integrate
 
@@ -685,7 +685,9 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
                 "{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
                 "unit and the step{drift}."
             )
-            drift = "" if cure is None else say(", or take off the drift of the baseline ({cure})", cure=as_asked(cure))
+            drift = (
+                "" if cure is None else say(", or take off the drift of the baseline ({cure})", cure=cure_request(cure))
+            )
             warn(words.of(name=name, axis=axis, fastest=fastest, drift=drift))
 
 

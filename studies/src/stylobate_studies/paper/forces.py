@@ -61,14 +61,14 @@ def forces_statement() -> Statement:
     return Statement(
         "2.3 ¶2", "Interface actions of the rigid block model can be compared directly with nodal forces of the rigid beam.",
         f"shear; moment of all joints, root mean square of the difference from the rigid block over the block's, at "
-        f"{FREQUENCY:g} Hz. " + " ".join(_told(a, {name: far[name, a] for name in PAPER}) for a in (CLOSED, ROCKING)),
+        f"{FREQUENCY:g} Hz. " + " ".join(_ratios(a, {name: far[name, a] for name in PAPER}) for a in (CLOSED, ROCKING)),
         judged(all(alike.values()), alike),
         f"Taken as: within {percent(ALIKE)}. Means over 40 ms, from the motion of what stands on each joint. The beam's "
         "normal forces are those at rest. Once joints open the models move differently, and blows last milliseconds.",
     )  # fmt: skip
 
 
-def _told(amplitude: float, far: Mapping[str, Mapping[str, Mapping[str, float]]]) -> str:
+def _ratios(amplitude: float, far: Mapping[str, Mapping[str, Mapping[str, float]]]) -> str:
     each = ", ".join(
         f"{SHORT[name]} {label} " + "; ".join(percent(value) for value in by.values())
         for name, models in far.items()

@@ -28,7 +28,7 @@ SHAKING = 1.0, 0.26 * g, 6.0, 5.0
 NUMBER, WITHIN = 16, 0.001
 
 #: Populations of round columns: (preset, law of contact, what acts across over what acts along).
-ASKED: tuple[tuple[str, str, float], ...] = (
+QUESTIONS: tuple[tuple[str, str, float], ...] = (
     (c.MONOLITH, "rim", 0.01),
     (c.DRUMS, "rim", 0.0),
     (c.DRUMS, "rim", 0.01),
@@ -40,7 +40,7 @@ def literature_piece(data: Path) -> dict[str, dict[str, list[float]]]:
     """Peaks, residuals and verdicts of the populations, by name."""
     place = data / "literature.json"
     if not is_ready(place):
-        populations = {population_name(*setup): _population(*setup, data / RUNS_FILE) for setup in ASKED}
+        populations = {population_name(*setup): _population(*setup, data / RUNS_FILE) for setup in QUESTIONS}
         with replacing(place) as partial:
             partial.write_text(json.dumps(populations), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))

@@ -36,14 +36,14 @@ def others_statements(results: PaperResults) -> list[Statement]:
     return [
         Statement(
             TESTS, "Planar shaking of a round column of drums goes out of its plane, triggered by imperfections.",
-            "peak of the top across over its peak along the shaking, medians of those that stand: " + _said(planar),
+            "peak of the top across over its peak along the shaking, medians of those that stand: " + _listed(planar),
             judged(all(out.values()), out),
             "Taken as: a quarter. One per cent of the shaking across is enough; drums on their rims leave the plane from "
             "rounding alone.",
         ),
         Statement(
             TESTS, "Large deformation during the shaking is not necessarily reflected by what is left at its end.",
-            f"displacement of the top left {SHAKING[3]:g} s after the shaking over its peak, medians: " + _said(residuals),
+            f"displacement of the top left {SHAKING[3]:g} s after the shaking over its peak, medians: " + _listed(residuals),
             judged(all(small.values()), small),
             "Taken as: less than half. Undamped columns still wobble then.",
         ),
@@ -77,5 +77,5 @@ def _moved(results: PaperResults, name: str) -> float:
     return float(np.nanmean(np.abs(space - twin)))
 
 
-def _said(values: dict[str, float]) -> str:
+def _listed(values: dict[str, float]) -> str:
     return "; ".join(f"{name} {value:.2f}" for name, value in values.items())

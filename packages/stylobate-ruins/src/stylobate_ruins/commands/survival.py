@@ -35,7 +35,7 @@ def survival(
     from stylobate.cli import console
     from stylobate.errors import InputError
     from stylobate.probability.risk import read_hazard
-    from stylobate.results.asked import kept_of
+    from stylobate.results.command_request import kept_of
 
     from ..survival import parse_age
     from ..survival import survival as survive
@@ -50,7 +50,7 @@ def survival(
             f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own.",
             "hazard",
         )
-    fragility, used = curves.one(source)
+    fragility, used = curves.single(source)
     evidence = survive(fragility, years, hazards)
     result = evidence.summary()
     with execution.files("survival", "survival.csv", "survival.json", "survival") as files:

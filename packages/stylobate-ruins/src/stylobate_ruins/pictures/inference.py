@@ -125,7 +125,7 @@ def draw_matches(inference: Inference, title: str | None = None, *, figure: Figu
         axes.set_axis_off()
     for axes, (caption, k) in zip(grid.flat, panels):
         for i, structure in enumerate(ruin.simulated):
-            state = None if k is None else table.left[i]
+            state = None if k is None else table.final_states[i]
             _column(axes, inference, i, (i * reach * 1.5, 0.0), widths[i], state, k)
             axes.text(i * reach * 1.5, -0.78 * reach, structure.name, ha="center", va="top", fontsize=6.5, color=GREY)
         axes.set_xlim(-0.8 * reach, (1.5 * len(widths) - 0.7) * reach)
@@ -272,7 +272,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     left.barh(at + 0.19, result.weight[order], 0.36, color=BLUE, alpha=0.75, label="after")
     ends = np.array([result.posterior(result.likelihood[way])[order] for way in WAYS])
     left.hlines(at + 0.19, ends.min(axis=0), ends.max(axis=0), color=BLACK, linewidth=1.2)
-    left.set_yticks(at, [result.asked.branches[k].name for k in order])
+    left.set_yticks(at, [result.sites.branches[k].name for k in order])
     left.invert_yaxis()
     left.set_xlabel("weight of the branch [-]")
     left.legend(fontsize=7.5)
@@ -293,7 +293,7 @@ def draw_weighing(result: Weighing, title: str | None = None, *, figure: Figure 
     right.set_xlim(0.0, None)
     right.set_xlabel("tells of the branches [bits]")
     right.legend(fontsize=7.5)
-    measure = parse_measure(result.asked.monuments[0].capacity.measure).words
+    measure = parse_measure(result.sites.monuments[0].capacity.measure).words
     for number, (axes, site) in enumerate(zip(lower.subplots(rows, across, squeeze=False).flat, sites)):
         im = result.im[site]
         for weight, color, called in ((result.prior, GREY, "before"), (result.weight, BLUE, "after")):

@@ -29,7 +29,7 @@ RUNS, TABLE, HAZARDS = "runs", "opened-table.csv", "hazards"
 CELLS = 20_000
 
 
-class MotionAsked(Table):
+class MotionChoice(Table):
     """A motion as the page holds it, in the words of the command line.
 
     ``kind`` is ``harmonic``, ``pulse``, ``synthetic``, ``sample`` or ``record``; ``text`` what follows that option, the
@@ -65,7 +65,7 @@ class MotionAsked(Table):
         return parameters | {self.kind: self.text}
 
 
-class JobAsked(Table):
+class JobRequest(Table):
     """Computation that is asked for: all but kind, column and model as on the command line.
 
     ``column`` is what a column file holds, ``assembly`` the text of an assembly file, ``ruin`` that of a ruin file; of
@@ -87,7 +87,7 @@ class JobAsked(Table):
     ruin: str | None = None
     model: str = "dem2d"
     settings: dict[str, str] = Field(default_factory=dict)
-    motion: MotionAsked | None = None
+    motion: MotionChoice | None = None
     replicates: str | None = None
     tail: str | None = None
     frequencies: str | None = None
@@ -105,12 +105,12 @@ class JobAsked(Table):
     state: str | None = None
 
 
-def requests(job_request: JobAsked, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
+def requests(job_request: JobRequest, records: Mapping[str, Sequence[str]]) -> list[dict[str, Any]]:
     """Requests to commands, as :func:`stylobate.cli.main.run_request` takes them; paths from the folder of the job.
 
     Parameters
     ----------
-    job_request : JobAsked
+    job_request : JobRequest
     records : mapping
         Paths of the files of each record, by its id.
 
@@ -146,7 +146,7 @@ def requests(job_request: JobAsked, records: Mapping[str, Sequence[str]]) -> lis
     return [made] if len(job_request.records) < FEWEST else [made, curve]
 
 
-def _of_form(job_request: JobAsked, form: Form, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+def _of_form(job_request: JobRequest, form: Form, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
     """The request of an analysis: what it takes of the page, and what its fields hold."""
     takes, boxes = form.takes, {box.option: box for box in form.boxes}
     unknown = next((name for name in job_request.options if name not in boxes), None)
@@ -187,7 +187,7 @@ def _of_form(job_request: JobAsked, form: Form, records: Mapping[str, Sequence[s
     return made | _without_empty(tail=job_request.tail if "tail" in takes else None) | {"out": RESULT}
 
 
-def hazard_files(job_request: JobAsked) -> dict[str, str]:
+def hazard_files(job_request: JobRequest) -> dict[str, str]:
     """Texts of the hazard curves by the names of their files in the folder of the job: those that they had, made safe.
 
     Raises
@@ -209,13 +209,13 @@ def safe_name(name: str, otherwise: str) -> str:
     return re.sub(r"[^\w.() -]+", "_", name).strip(". ")[-60:] or otherwise
 
 
-def _the_motion(job_request: JobAsked) -> MotionAsked:
+def _the_motion(job_request: JobRequest) -> MotionChoice:
     if job_request.motion is None:
         raise InputError("there is no motion; choose one.")
     return job_request.motion
 
 
-def _stands(job_request: JobAsked) -> str:
+def _stands(job_request: JobRequest) -> str:
     return COLUMN if job_request.assembly is None else ASSEMBLY
 
 
@@ -230,7 +230,7 @@ def _each(chosen: Sequence[str], records: Mapping[str, Sequence[str]]) -> list[s
     return [path for record in chosen for path in _files(record, records)]
 
 
-def study(job_request: JobAsked) -> dict[str, Any]:
+def study(job_request: JobRequest) -> dict[str, Any]:
     """The study file of a domain, as TOML gives it.
 
     Raises
@@ -275,7 +275,7 @@ def _without_empty(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value or value is False}
 
 
-def _motion(motion: MotionAsked, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
+def _motion(motion: MotionChoice, records: Mapping[str, Sequence[str]]) -> dict[str, Any]:
     return motion.words(_files(motion.text, records) if motion.kind == "record" else ())
 
 

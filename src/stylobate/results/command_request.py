@@ -1,4 +1,4 @@
-"""What a command was asked, and the runs of others that results rest on."""
+"""Request of a command, and the runs of others that results rest on."""
 
 from __future__ import annotations
 
@@ -61,15 +61,15 @@ def read_json(path: Path) -> dict[str, Any]:
 FORM = 1
 
 
-def asked_file(command: str) -> str:
+def request_file_name(command: str) -> str:
     """Name of the file of a command, such as ``asked-critical.json``: one folder may hold results of several."""
     return f"asked-{command}.json"
 
 
 def others_in(folder: Path, command: str) -> list[str]:
     """Other commands that left a result in a folder."""
-    names = sorted(path.name for path in folder.glob(asked_file("*")) if path.name != asked_file(command))
-    start, end = asked_file("*").split("*")
+    names = sorted(path.name for path in folder.glob(request_file_name("*")) if path.name != request_file_name(command))
+    start, end = request_file_name("*").split("*")
     return [name.removeprefix(start).removesuffix(end) for name in names]
 
 
@@ -90,7 +90,7 @@ class CommandRequest:
         and what their files say of themselves (``metadata``); ``scales``, by which runs multiplied them: the least factor,
         the largest one and how many there are.
     sources : tuple of dict
-        Tables of runs that it was computed from, see :class:`~stylobate.results.asked.Source`.
+        Tables of runs that it was computed from, see :class:`~stylobate.results.command_request.Source`.
     options : dict
         What else was asked, by the name of the option.
     warnings : tuple of str
@@ -257,7 +257,7 @@ class Source:
     def kept(self) -> CommandRequest | str:
         """Request of the command that wrote the table, or why that is not known."""
         command = COMMANDS.get(self.table.stem)
-        file = self.table.parent / asked_file(command or "")
+        file = self.table.parent / request_file_name(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
             return say("{table.table.name} lies beside no results of stylobate.", table=self)
         try:
@@ -266,7 +266,7 @@ class Source:
             return str(error)
 
     @property
-    def asked(self) -> CommandRequest | None:
+    def request(self) -> CommandRequest | None:
         """Request of the command that wrote the table; None where that is not known."""
         return self.kept if isinstance(self.kept, CommandRequest) else None
 
@@ -282,7 +282,7 @@ class Source:
     @property
     def structures(self) -> list[dict[str, Any]]:
         """Structures of these runs, as kept by the command."""
-        request, names = self.asked, self.stood
+        request, names = self.request, self.stood
         kept = request.structures if request is not None else ()
         labels = request.options.get("states") if request is not None else None
         if labels and len(labels) == len(kept):
@@ -292,7 +292,7 @@ class Source:
     @property
     def models(self) -> list[dict[str, Any]]:
         """Models of these runs, as kept by the command."""
-        request, names = self.asked, self.names("model")
+        request, names = self.request, self.names("model")
         return [
             model for model in (request.models if request is not None else ()) if not names or model["name"] in names
         ]
@@ -318,7 +318,7 @@ class Source:
     @property
     def motions(self) -> list[dict[str, Any]]:
         """Motions of these runs, as kept by the command, each with the factors by which it was multiplied."""
-        request = self.asked
+        request = self.request
         scaled = None if self.table.stem == "suite" else self.runs  # a suite runs its motions as they are
         return (
             []
@@ -329,7 +329,7 @@ class Source:
     @property
     def facts(self) -> dict[str, Any]:
         """Facts that are kept beside the result that rests on it."""
-        request, records = self.asked, self.names("record")
+        request, records = self.request, self.names("record")
         listed = (self.table.parent / LIST).is_file() and OwnFiles(self.table.parent).lists(self.table)
         return {
             "path": str(self.path),
@@ -355,7 +355,7 @@ def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
         for kind, entries in by_digest.items():
             for value in getattr(source, kind):
                 entries.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
-        warnings |= dict.fromkeys(source.asked.warnings if source.asked is not None else ())
+        warnings |= dict.fromkeys(source.request.warnings if source.request is not None else ())
     kept = {kind: list(entries.values()) for kind, entries in by_digest.items()}
     return kept | {"sources": [source.facts for source in sources], "earlier": list(warnings)}
 
