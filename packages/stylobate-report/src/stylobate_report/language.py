@@ -20,9 +20,10 @@ from typing import Any
 from stylobate.atomic import replacing
 from stylobate.errors import InputError
 from stylobate.messages import Message, filled, say
+from stylobate.probability.states import NO_MEASURE
 from stylobate.text_tables import printable, read_bytes
 
-from .numbers import SPANNING
+from .numbers import IN_JOINT, SPANNING
 from .page import Code, Exact, Facts, Item, Note, Picture, Points, Section
 
 #: Languages whose catalogues come with the package; a report is written in English and needs none.
@@ -39,9 +40,6 @@ DECIMAL, GROUPS = "X-Decimal", "X-Groups"
 
 #: Names that the program gives to parts of what stands, of which the nouns are translated.
 NUMBERED = re.compile(r"(ground|column|drum|capital|architrave|block|tie|dowel|clamp|layer|core|bar)( \d+)?")
-
-#: Name of a link in a joint, and its number where the joint has several.
-IN_JOINT = re.compile(r"(dowel|bar|layer|pad) in joint (\d+)((?:, \d+)?)")
 
 
 #: Symbols of units, which are alike in all languages, and the most words that a name has: more are a sentence.
@@ -120,6 +118,8 @@ class Language:
             return text
         if len(pair := text.split(" – ")) == 2:  # a joint, by what it lies between
             return " – ".join(map(self.say, pair))
+        if text in NO_MEASURE:  # a state of a column that the program names
+            return self._template(text)
         if parts := numbered(text):
             return ", ".join(self._template(noun) + number for noun, number in parts)
         if len(WORD.findall(text)) > MOST_IN_A_NAME:

@@ -11,8 +11,10 @@ from stylobate.messages import Message, digits, joined, say
 
 from .page import Exact
 
-#: The name of a link that has none of the reader's.
+#: Names of links that have none of the reader's: of what spans drums, and of what lies in a joint, with a number where
+#: the joint has several.
 SPANNING = re.compile(r"(?P<kind>\w+) from (?:the base|drum (?P<lower>\d+)) to drum (?P<upper>\d+)")
+IN_JOINT = re.compile(r"(dowel|bar|layer|pad) in joint (\d+)((?:, \d+)?)")
 
 #: Text where there is no value.
 NONE = "–"
@@ -67,7 +69,7 @@ def plain(value: Any) -> str:
         )
     if isinstance(value, (Message, Exact)):
         return value
-    if isinstance(value, str) and SPANNING.fullmatch(value):
+    if isinstance(value, str) and (SPANNING.fullmatch(value) or IN_JOINT.fullmatch(value)):
         return value
     return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Exact(value)
 
