@@ -50,7 +50,8 @@ def main(records: Path) -> None:
     """Compute all of it, and print the rows."""
     plane, *_, space = models = list(POPULATIONS.values())
     undecided = 0
-    for record in map(strongest, read_records(records)):
+    for motion in read_records(records):
+        record = motion if motion.y_samples is None else strongest(motion)
         scaled = [record.replace(factor=record.factor * peak * st.g / record.pga) for peak in PEAKS]
         rows: list[list[str]] = [[], [], []]
         for column in columns().values():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ..messages import joined, say
@@ -58,6 +58,9 @@ DENSITY = Range(say("stone has"), 500.0, 5000.0, "kg/m³")
 STIFFNESS = Range(say("nobody has measured but"), 1e7, 1e13, "N/m³")
 FRICTION = Range(say("nobody has measured but"), 0.0, 2.0)
 CLOSURE = Range(say("dry joints of stone close by"), 0.0, 0.5, "mm")
+#: What is stated of links, from a peg of a model on a shaking table to a tendon of a tower.
+CAPACITY = Range(say("links bear"), 50.0, 1e8, "N")
+LINK_STIFFNESS = Range(say("links have"), 1e4, 1e12, "N/m")
 #: Share of the width of a joint beyond which a drum is hardly found off the one below: their centroids are near an edge.
 OFFSET = Range(say("drums are found with"), 0.0, 0.3)
 
@@ -74,6 +77,19 @@ def law_doubts(column: Stack) -> list[str]:
     return doubts or closing_doubts(
         (say("joint {i}", i=i), closure, law) for i, (closure, law) in enumerate(closures, 1)
     )
+
+
+def link_doubts(values: Mapping[str, Any]) -> list[str]:
+    """Forces and stiffnesses that are stated of a link and that no link has: another unit is meant."""
+    return [
+        doubt
+        for end, known in (
+            ("_capacity", CAPACITY),
+            ("axial_stiffness", LINK_STIFFNESS),
+            ("shear_stiffness", LINK_STIFFNESS),
+        )
+        for doubt in known.doubts((name, value) for name, value in values.items() if name.endswith(end) and value)
+    ]
 
 
 def size_doubts(column: Stack) -> list[str]:

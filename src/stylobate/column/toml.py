@@ -103,6 +103,7 @@ _MISTAKES: tuple[tuple[str, str | Callable[[re.Match[str]], str], str], ...] = (
     (r"(?<=\d)\.(?![\w\"'./])", ".0", "a digit stands behind a decimal point"),
     (r"(?<=\d)\.(?=[eE][+-]?\d)", ".0", "a digit stands behind a decimal point"),
     (r"(?<=[=\[,])(\s*[+-]?)0+(?=\d)", r"\1", "numbers begin with no needless 0"),
+    (r"(?<=\d)\s+(?=[eE][+-]?\d)", "", "a number has no space in it"),
     (r"(?<=\d)\s*(?:m|s|kg/m[³3]|N/m[³3]?|Pa|°|deg|degrees)(?=\s*(?:[\],#]|$))", "", "units are not written"),
     (r"\s*[;,]\s*(?=#|$)", "", "nothing stands behind a value"),
     (r"=\s*(?!None|null|NaN)([^\W\d][^\"'#=\[\]{}]*?)(?=\s*(?:#.*)?$)", r'= "\1"', "a text stands in quotes"),

@@ -318,12 +318,14 @@ def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
     poe = numbers(each[_nearest(name, len(each), places, site)], "poEs")
     if len(poe) != len(im):
         raise InputError(f"{name} has {len(im)} intensities and {len(poe)} probabilities; mend the file.")
-    period, kind = curve_set.get("saPeriod"), curve_set.get("statistics", "")
+    period, kind = curve_set.get("saPeriod"), curve_set.get("statistics", "").lower()
     if kind == "quantile":
         kind += f"-{curve_set.get('quantileValue', '')}"
     elif not kind and curve_set.get("sourceModelTreePath"):
         kind = f"{curve_set.get('sourceModelTreePath')}~{curve_set.get('gsimTreePath', '')}"
-    imt = curve_set.get("IMT", "")
+    imt, damping = curve_set.get("IMT", ""), curve_set.get("saDamping")
+    if damping and _number(f"saDamping of {name}", 1, [damping], 0) not in (0.05, 5.0):
+        raise InputError(f"{name} is of a damping of {damping} (saDamping); allowed is 5 %, of which `sa` is here.")
     if period:
         imt += f"({_number(f'saPeriod of {name}', 1, [period], 0):g})"
     return _of_chances(name, imt, _statistic(kind, name), time, im, poe)

@@ -324,7 +324,8 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], tail: float, 
         Whether it went on after it for its verdict, as runs of campaigns do (``until_decided``).
     """
     if structure.stack is None and structure.slenderness is None:
-        return say("follow it with `until_rest`, or damp it (stiffness_damping)")
+        damp = say("damp it (stiffness_damping)")
+        return damp if waited else say("follow it with `until_rest`, or {damp}", damp=damp)
     free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
     moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":

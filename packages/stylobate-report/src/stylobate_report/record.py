@@ -47,9 +47,7 @@ def request_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Sec
         if request.day:
             pairs.append((say("computed on"), Exact(request.day)))
     else:
-        items.append(
-            say("The folder does not hold the command line: it was written by a version that did not keep it.")
-        )
+        items.append(say("The folder does not hold the command line: the file that keeps it is not there."))
     pairs.append((say("folder"), Exact(result.folder)))
     return Section(say("What was asked"), [*items, Facts(pairs)])
 

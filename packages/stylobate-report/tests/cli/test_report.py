@@ -278,7 +278,7 @@ def test_states_have_a_page_of_their_own(place, tmp_path):
     assert "nothing is concluded from fewer than 10 records)" in text
     assert "Drums and joints are those of “as built”. What differs: 1 link instead of none." in text
     assert "states compared" in text
-    assert "did not keep it" not in text
+    assert "does not hold the command line" not in text
     assert "study" not in text.lower().split("sources to cite")[0]
     pictures = [value for name, value in page.attributes if name == "alt"]
     assert sum(caption.startswith("Elevation of") for caption in pictures) == 2

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 from pydantic import create_model
 
-from ...errors import InputError, within
+from ...errors import InputError, warn, within
+from ...messages import say
+from ..plausible import link_doubts
 from ..toml import Table, words
 from . import COLUMN_KINDS, KINDS, block_link, link_from_dict
 from .link import Link
@@ -65,6 +67,7 @@ def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:
     for number, table in enumerate(tables, 1):
         fields = table.model_dump(exclude={"joints"}, exclude_none=True)
         with within(f"[[link]] number {number}", "link", number):
+            _warn_of(number, fields)
             if not isinstance(table.joint, int | None):
                 raise InputError(
                     f"joint is {table.joint!r}; it must be the number of a joint; "
@@ -82,9 +85,16 @@ def links_between(tables: Sequence[BlockLinkTable]) -> list[Link]:
     """Links of an assembly; errors as of :func:`links_of`."""
     links = []
     for number, table in enumerate(tables, 1):
+        fields = table.model_dump(exclude_none=True)
         with within(f"[[link]] number {number}", "link", number):
-            links.append(block_link(**table.model_dump(exclude_none=True)))
+            _warn_of(number, fields)
+            links.append(block_link(**fields))
     return links
+
+
+def _warn_of(number: int, fields: Mapping[str, Any]) -> None:
+    for doubt in link_doubts(fields):
+        warn(say("[[link]] number {number}: {doubt}", number=number, doubt=doubt))
 
 
 def _joints(table: LinkTable, joints: int) -> Sequence[int]:
