@@ -149,7 +149,7 @@ def test_the_numbers_of_a_clamp_are_those_of_its_bar_and_of_two_dowels() -> None
     clamp = Clamp(material="titanium", section=(0.02, 0.01), embedment=0.06)
     diameter = math.sqrt(4.0 * 0.02 * 0.01 / math.pi)
     assert clamp.diameter == pytest.approx(diameter)
-    resistance = clamp.held(Site(0.3))
+    resistance = clamp.resistance(Site(0.3))
     made = MATERIALS["titanium"]
     legs = shear_stiffness("titanium", diameter, 0.06, 50e9)
     assert resistance.axial_stiffness == pytest.approx(1.0 / (0.3 / (made.modulus * 2e-4) + 1.0 / legs))

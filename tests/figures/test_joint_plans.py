@@ -44,7 +44,7 @@ def test_plans_of_a_column_as_found(column):
     assert first.below is None
     assert second.offset == pytest.approx((0.03 * math.cos(math.radians(120.0)), 0.03 * math.sin(math.radians(120.0))))
     assert second.above.mean(axis=0) == pytest.approx(np.array(second.offset))
-    assert second.found == "offset +30 mm to 120°"
+    assert second.as_found == "offset +30 mm to 120°"
     # a segment of height h: r² (θ − sin θ cos θ), cos θ = 1 − h/r; 120 corners leave 0.05 % of a circle out
     half = math.acos(1.0 - 0.2 / 0.5)
     remaining_area = math.pi * 0.25 - 0.25 * (half - math.sin(half) * math.cos(half))
@@ -52,7 +52,7 @@ def test_plans_of_a_column_as_found(column):
     way = np.array([math.cos(math.radians(45.0)), math.sin(math.radians(45.0))])  # 30° in axes turned by 15°
     assert float((third.above @ way).max()) == pytest.approx(0.3, abs=1e-9)
     assert third.links == (pytest.approx((0.3 * math.cos(math.radians(15.0)), 0.3 * math.sin(math.radians(15.0)))),)
-    assert third.found == "turned +15°\nchip right 200 mm (right at 30°)"
+    assert third.as_found == "turned +15°\nchip right 200 mm (right at 30°)"
 
 
 def test_the_sheet_of_a_column(column):

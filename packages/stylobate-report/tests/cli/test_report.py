@@ -210,7 +210,7 @@ def test_the_first_page_has_the_shares_and_each_doubt_once():
     from stylobate_report.page import Note, Section
     from stylobate_report.record import warnings_of
 
-    result = SimpleNamespace(asked=None, files=())
+    result = SimpleNamespace(request=None, files=())
     plane, other = "the plane leaves out what shakes it across.", "it is wide."
     run = Section("Verdict", [Note(["It stands.", "1 of 15 falls.", "Scope."], "verdict", first=2)])
     run = Section("Verdict", [*run.items, *warnings_of(result, [plane])])
