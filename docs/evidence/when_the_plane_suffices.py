@@ -1,7 +1,7 @@
 """The table of records on the page of when the plane suffices: thirty columns under nine records, in the plane and in space.
 
 ``python docs/evidence/when_the_plane_suffices.py RECORDS`` prints it; RECORDS is the folder that ``stylobate reproduce``
-takes. Not a part of the tests: a quarter of an hour of one core.
+takes. Not a part of the tests: half an hour of one core.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def runs(column: st.Column, motions: Sequence[st.Motion], model: st.Model, numbe
 def main(records: Path) -> None:
     """Compute all of it, and print the rows."""
     plane, *_, space = models = list(POPULATIONS.values())
-    undecided = 0
+    open_ends = {v.UNDECIDED: 0, v.FAILED: 0}
     for motion in read_records(records):
         record = motion if motion.y_samples is None else strongest(motion)
         scaled = [record.replace(factor=record.factor * peak * st.g / record.pga) for peak in PEAKS]
@@ -60,19 +60,25 @@ def main(records: Path) -> None:
             rows[1].append(
                 ", ".join(f"{np.median(peak[seen != v.COLLAPSED]):.2f}" for seen, peak in zip(verdicts, peaks))
             )
-            undecided += sum(int((seen == v.UNDECIDED).sum()) for seen in verdicts)
+            count(open_ends, verdicts)
             few, _ = runs(column, scaled, space, FEW, OTHER)
             falls = np.flatnonzero((few == v.COLLAPSED).sum(axis=1) >= 2)
             if not falls.size:
                 rows[2].append(f"stands up to {PEAKS[-1]:g} g")
                 continue
             verdicts = [runs(column, [scaled[falls[0]]], model, MANY, SEED)[0] for model in models]
-            undecided += sum(int((seen == v.UNDECIDED).sum()) for seen in verdicts)
+            count(open_ends, verdicts)
             rows[2].append(f"{PEAKS[falls[0]]:.2f} g: {fallen(verdicts)}")
         print(f"| {record.name} | {record.pga / st.g:.2f} g | as recorded: plane, space | {' | '.join(rows[0])} |")
         print(f"| | | median peak of the top [m] | {' | '.join(rows[1])} |")
         print(f"| | scaled | plane, twin, space | {' | '.join(rows[2])} |", flush=True)
-    print(f"{undecided} undecided")
+    print(", ".join(f"{number} {end}" for end, number in open_ends.items()))
+
+
+def count(open_ends: dict[str, int], verdicts: Iterable[np.ndarray]) -> None:
+    """Add the runs without a certain verdict."""
+    for end in open_ends:
+        open_ends[end] += sum(int((seen == end).sum()) for seen in verdicts)
 
 
 def fallen(verdicts: Iterable[np.ndarray]) -> str:
