@@ -385,6 +385,21 @@ def test_joints_that_nobody_has_measured_are_warned_about(line, warning, tmp_pat
         read_column(path)
 
 
+def test_links_that_nobody_makes_are_warned_about(tmp_path):
+    """A capacity in kN, a stiffness in kN/mm."""
+    path = tmp_path / "column.toml"
+    path.write_text(
+        "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.6\ntop_width = 0.6\ndrums = 2\n[joint]\n"
+        "normal_stiffness = 5e10\nshear_stiffness = 2.5e10\nfriction_coefficient = 0.7\n[[link]]\nkind = 'dowel'\n"
+        "joint = 2\ndiameter = 0.03\nembedment = 0.1\nshear_stiffness = 50.0\nshear_capacity = 40.0\n"
+    )
+    with pytest.warns(st.OutOfRangeWarning) as warnings:
+        read_column(path)
+    texts = " ".join(str(warning.message) for warning in warnings)
+    assert "shear_capacity is 40 N, and links bear 50 to 1e+08 N" in texts
+    assert "shear_stiffness is 50 N/m, and links have 10000 to 1e+12 N/m" in texts
+
+
 def test_a_taper_in_depth_goes_through_a_file(tmp_path):
     """In both ways of stating drums; a column that has none keeps its digest."""
     (tmp_path / "a.toml").write_text(
@@ -493,6 +508,7 @@ MISTAKES = {
     "height: 0.8": 0.8,
     "height = True": True,
     "height = no": False,
+    "height = 1.0 e10": 1.0e10,
     "height = [.5, 1.]": [0.5, 1.0],
     "height = [0.5 m, .3 m],": [0.5, 0.3],
     "height = “Ναός”": "Ναός",

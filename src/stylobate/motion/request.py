@@ -299,7 +299,7 @@ class MotionRequest:
                     known = _direction(variant, motion.name) | ({} if azimuth is None else {"azimuth": azimuth})
                     variant = variant.replace(metadata={**variant.metadata, "direction": known})
                 if len(self.azimuths) > 1:
-                    variant = variant.replace(name=f"{variant.name}, {azimuth:g}°")
+                    variant = variant.replace(name=f"{variant.name} · {azimuth:g}°")
                 ready += [variant, _reversed(variant, motion.name)] if self.signs == "both" else [variant]
             for step in self.condition:
                 ready = conditioned_alike(ready, step)
@@ -322,7 +322,7 @@ class MotionRequest:
             size = say("{peak:g} g", peak=self.pga / g)
             text = say("multiplied by {times:.4g}: scaled to a peak of {size} along x", times=times, size=size)
             if len(self.azimuths) > 1:
-                motion = motion.scaled(times).replace(name=f"{motion.name}, {size}")
+                motion = motion.scaled(times).replace(name=f"{motion.name} · {size}")
                 text = say("{step}, that of the strongest of these directions", step=text)
             else:
                 motion = motion.scaled_to_pga(self.pga)

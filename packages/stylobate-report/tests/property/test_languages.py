@@ -21,7 +21,7 @@ from stylobate_report.language import (
     language_of,
     write_template,
 )
-from stylobate_report.numbers import WORDS
+from stylobate_report.numbers import WORDS, plain
 from stylobate_report.page import Exact
 
 REPORT = Path(spoken.__file__).parent
@@ -95,7 +95,12 @@ def test_what_has_no_translation_is_told_and_names_are_not():
     assert [language.say(text) for text in ("ground – drum 1", "dowel in joint 5, 1", "layer in joint 1")] == [
         "suolo – rocco 1", "perno nel giunto 5, 1", "strato nel giunto 1",
     ]  # fmt: skip
-    assert not language.missing
+    assert [language.say(plain(text)) for text in ("as built", "dowel in joint 2")] == [
+        "come costruita",
+        "perno nel giunto 2",
+    ]
+    assert language.say(say("“{state}” stands", state="as built")) == "“come costruita” stands"
+    language.missing.clear()
     language.say(say("The column wore a hat of stone."))
     assert list(language.missing) == ["The column wore a hat of stone."]
 

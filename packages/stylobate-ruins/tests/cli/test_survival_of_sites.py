@@ -133,6 +133,7 @@ def test_hazard_curves_in_nrml(tmp_path):
         ("0.4 0.2 0.05", "0.4 0.2", "3 intensities and 2"),
         ("0.4 0.2 0.05", "nan 0.2 0.05", "outside 0 to 1"),
         ('IMT="PGV"', 'IMT="SA" saPeriod="1 s"', "saPeriod of curve.xml has '1 s' where a number"),
+        ('IMT="PGV"', 'IMT="SA" saPeriod="1.0" saDamping="2.0"', "damping of 2.0"),
         ("21.90 37.43", "", "2 sites without longitude and latitude"),
         ("<nrml", "<!DOCTYPE x [<!ENTITY a 'b'>]><nrml", "entities"),
         ("hazardCurves", "other", "0 sets"),
@@ -140,7 +141,8 @@ def test_hazard_curves_in_nrml(tmp_path):
         path.write_text(NRML.replace(old, new))
         with pytest.raises(st.InputError, match=why):
             read_hazard(path, (22.0, 37.4))
-    path.write_text(NRML)
+    path.write_text(NRML.replace('"mean"', '"Mean"'))
+    assert read_hazard(path, (22.0, 37.4)).statistic == hazard.statistic == "mean"
     with pytest.raises(st.InputError, match="2 sites"):
         read_hazard(path)
 
