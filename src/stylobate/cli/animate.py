@@ -70,7 +70,8 @@ def animate(
                     progress=progress,
                     seen_from=seen_from,
                 )
-    duration = float(loaded.time[-1])
+    first, last = window or (float(loaded.time[0]), float(loaded.time[-1]))
+    duration = (last - first) / speed
     doubt = doubt_of(loaded)
     summary = {"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label, "doubt": doubt}
     if not execution.emits(summary):

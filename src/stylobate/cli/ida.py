@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -69,7 +70,8 @@ def ida(
             files.picture(plots.draw_ida(analysis, edp), "ida")
             if len(best):
                 files.table(best, "measures.csv")
-                files.picture(plots.draw_efficiency(best), "measures")
+                if any(math.isfinite(beta) for beta in best["beta"]):
+                    files.picture(plots.draw_efficiency(best), "measures")
             what = {
                 "structures": [stone],
                 "models": [how],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -45,11 +46,12 @@ def risk(
     if execution.emits(result):
         return
     most = max(result["deaggregation"], key=lambda row: row["annual_rate"])
+    end = f"to {most['to']:.3g}" if math.isfinite(most["to"]) else "upwards,"
     console.say(
         estimate.sentence,
         {
             "annual rate": f"{estimate.rate:.3g} (95 %: {estimate.low:.3g} to {estimate.high:.3g})",
-            "mostly from": f"{most['from']:.3g} to {most['to']:.3g} {result['unit']} ({result['im']})",
+            "mostly from": f"{most['from']:.3g} {end} {result['unit']} ({result['im']})",
             "hazard": curve.called,
             **{f"note {k}": text for k, text in enumerate(estimate.warnings, 1)},
         },

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..errors import InputError, check_range, warn, within
-from ..messages import joined, say
+from ..messages import Message, joined, say
 from .as_found import AS_BUILT, AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -108,10 +108,10 @@ def project(column: Column, azimuth: float) -> Projection:
         )
         result = plane.replace(as_found=as_found or AS_BUILT)
     across = [
-        _most("offsets", "mm", [1e3 * offset[1] for offset in offsets]),
-        _most("leans", "°", [lean[1] for lean in leans]),
-        _most("turns", "°", [found_drum.turn for found_drum in ones]),
-        f"the slope of the base across, {abs(slope[1]):.3g}°" if abs(slope[1]) > NOTHING else "",
+        _most(say("offsets across of up to {size:.3g} mm (drum {drum})"), [1e3 * offset[1] for offset in offsets]),
+        _most(say("leans across of up to {size:.3g}° (drum {drum})"), [lean[1] for lean in leans]),
+        _most(say("turns of up to {size:.3g}° (drum {drum})"), [found_drum.turn for found_drum in ones]),
+        say("the slope of the base across, {angle:.3g}°", angle=abs(slope[1])) if abs(slope[1]) > NOTHING else "",
         _chipped(ones, kept),
         _beside(links),
     ]
@@ -203,14 +203,13 @@ def _chips(column: Column, plane: Column, joint: int, way: np.ndarray) -> tuple[
     )
 
 
-def _most(what: str, unit: str, values: list[float]) -> str:
+def _most(words: Message, values: list[float]) -> str:
     """The largest of some values that the drums have, in words; empty if there is none."""
     sizes = np.abs(values)
     worst = int(sizes.argmax())
     if sizes[worst] <= NOTHING:
         return ""
-    across = "" if what == "turns" else " across"
-    return f"{what}{across} of up to {sizes[worst]:.3g} {unit} (drum {worst + 1})".replace(" °", "°")
+    return words.of(size=sizes[worst], drum=worst + 1)
 
 
 def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
@@ -219,10 +218,16 @@ def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
     for found_drum, now in zip(ones, kept, strict=True):
         before, after = (sorted(part for part in drum.chips if part > SMALLEST_CHIP) for drum in (found_drum, now))
         if before and not (len(before) == len(after) and np.allclose(before, after, rtol=1e-6)):
-            words, plane_words = (" and ".join(f"{1e3 * part:.3g} mm" for part in parts) for parts in (before, after))
-            shown = f"{plane_words} at the ends of its faces" if plane_words else "none"
-            phrases.append(f"of the chips of drum {found_drum.drum}, {words} deep, the plane shows {shown}")
-    return ", ".join(phrases)
+            deep, shown = (
+                joined(say(" and "), (say("{depth:.3g} mm", depth=1e3 * part) for part in parts))
+                for parts in (before, after)
+            )
+            part_shown = say(
+                "of the chips of drum {drum}, {deep} deep, the plane shows {shown} at the ends of its faces"
+            )
+            none_shown = say("of the chips of drum {drum}, {deep} deep, the plane shows none")
+            phrases.append((part_shown if shown else none_shown).of(drum=found_drum.drum, deep=deep, shown=shown))
+    return joined(", ", phrases)
 
 
 def _beside(links: tuple[Link, ...]) -> str:
@@ -232,5 +237,6 @@ def _beside(links: tuple[Link, ...]) -> str:
     beside = [distance for distance in far if distance > NOTHING]
     if not beside:
         return ""
-    number = "a link acts" if len(beside) == 1 else f"{len(beside)} links act"
-    return f"{number} beside it, by up to {max(beside):.3g} m, without the torsion of that"
+    alone = say("a link acts beside it, by up to {far:.3g} m, without the torsion of that")
+    several = say("{count} links act beside it, by up to {far:.3g} m, without the torsion of that")
+    return (alone if len(beside) == 1 else several).of(count=len(beside), far=max(beside))

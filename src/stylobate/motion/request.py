@@ -366,7 +366,7 @@ def _reversed(motion: Motion, record: str) -> Motion:
     return motion.replace(
         ax=-motion.samples,
         ay=None if y is None else -y,
-        name=f"{motion.name} reversed",
+        name=f"{motion.name} · −x",
         metadata={**motion.metadata, "direction": direction} | ({"azimuths": azimuths} if azimuths else {}),
         processing=(*motion.processing, say("horizontal components reversed")),
     )

@@ -177,6 +177,7 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     table : pandas.DataFrame
         From :func:`stylobate.probability.ida.which_tells_most`.
     """
+    table = table.dropna(subset=["beta"])  # levels too far apart show no dispersion
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.23 * len(table)))
     at = np.arange(len(table))
     beta = table["beta"].to_numpy(dtype=float)

@@ -19,7 +19,7 @@ from ..column.links.link import PLACES, Link
 from ..column.links.placed import PlacedLink
 from ..column.structure import Structure
 from ..errors import InputError, check_kind
-from ..messages import say
+from ..messages import joined, say
 from ..models.base import duration
 from ..response.links import AT_CAPACITY
 from ..response.response import Response
@@ -712,29 +712,37 @@ def best_of(
         row["alike"] = None if best is None else may and (records < FEWEST or not low > 0.0)
     alike = tuple(row["candidate"] for row in rows if row["alike"])
     sure = all(row["use_high"] < AT_CAPACITY for row in rows if row["alike"])
-    words = f"{_words(best, alike, len(labels), records, comparison.state)} {len(comparison.table)} runs; "
-    words += f"{100 * confidence:g} % intervals for all pairs together, "
-    words += f"{basis_of(designed) if len(designed) else 'over records'}."
+    words = say(
+        "{advice} {runs} runs; {confidence:g} % intervals for all pairs together, {basis}.",
+        advice=_words(best, alike, len(labels), records, comparison.state),
+        runs=len(comparison.table),
+        confidence=100 * confidence,
+        basis=basis_of(designed) if len(designed) else say("over records"),
+    )
     if best is not None and not sure:
-        words += (
-            " That the links, and the stone around them, stay below their capacity is not sure: the upper limit of "
+        unsure = say(
+            "That the links, and the stone around them, stay below their capacity is not sure: the upper limit of their "
+            "use reaches it."
         )
-        words += "their use reaches it."
+        words = joined(" ", [words, unsure])
     return Best(best, alike, pandas.DataFrame(rows), len(comparison.table), records, words)
 
 
 def _words(best: str | None, alike: Sequence[str], number: int, records: int, state: str) -> str:
     """What the comparison comes to."""
     if best is None:
-        return (
-            f"None of the {number} candidates is allowed: at the largest level each collapses or comes to the capacity of a "
+        return say(
+            "None of the {number} candidates is allowed: at the largest level each collapses or comes to the capacity of a "
             "link, or of the stone around it, under 16 % of the motions or more; strengthen the links, or run lower levels. "
             "That one is stronger than another state only compares collapses under these motions: it is no leave to build "
-            "it."
+            "it.",
+            number=number,
         )
-    few = f"; nothing is told from fewer than {FEWEST} records" if records < FEWEST else ""
-    sentence = f"Least {state} of {number} candidates: {best}"
+    few = say("; nothing is told from fewer than {fewest} records", fewest=FEWEST) if records < FEWEST else ""
+    sentence = say("Least {state} of {number} candidates: {best}", state=state, number=number, best=best)
     others = len(alike) - 1
     if not others:
-        return f"{sentence}; the others are worse or reach their capacity."
-    return f"{sentence}; {others} more cannot be told from it under {records} record{'s' * (records != 1)}{few}."
+        return sentence + say("; the others are worse or reach their capacity.")
+    more = say("; {others} more cannot be told from it under {records}{few}.")
+    of = say("one record") if records == 1 else say("{records} records", records=records)
+    return sentence + more.of(others=others, records=of, few=few)

@@ -88,11 +88,17 @@ def in_plane(time: float, joint: int, side: float, *, slid_off: bool = False) ->
     return Collapse(float(time), int(joint), SLID_OFF if slid_off else OVERTURNED, 0.0 if side > 0 else math.pi)
 
 
+def part_on(joint: int, drums: int) -> str:
+    """All that stands on a joint of a column of so many drums, in words."""
+    if joint == 1:
+        return say("the whole column")
+    return say("drums {first} to {last}", first=joint, last=drums) if joint < drums else say("drum {drum}", drum=drums)
+
+
 def what_is_lost(lost: Collapse, drums: int) -> str:
     """The part of a column of so many drums that is lost, and how, in words."""
     joint = lost.joint or 1
-    part = say("drums {first} to {last}", first=joint, last=drums) if joint < drums else say("drum {drum}", drum=drums)
-    part = say("the whole column") if joint == 1 else part
+    part = part_on(joint, drums)
     if lost.mechanism == SLID_OFF:
         return say("{part} left the support at joint {joint}", part=part, joint=joint)
     return say("{part} overturned about joint {joint}", part=part, joint=joint)

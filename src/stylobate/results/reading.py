@@ -291,7 +291,8 @@ def _foreign(place: Path) -> str:
     refuse_former(*place.glob(FORMER_FILES))
     if (place / RUNS_FILE).is_file():
         return (
-            f"{printable(place)} holds a command's work that is not finished; give the same command again, then report."
+            f"{printable(place)} holds runs of a command that has written no result; give the same command again: it goes "
+            "on, or says why there is none."
         )
     return f"{printable(place)} holds no result of stylobate; give a folder in which a command wrote its files."
 

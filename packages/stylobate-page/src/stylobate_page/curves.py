@@ -46,7 +46,7 @@ def curves(folder: Path) -> dict[str, Any]:
         Of the job.
     """
     plots: dict[str, Any] = {}
-    if (folder / RESULT / "capacities.csv").is_file():
+    if (folder / RESULT / "ida.json").is_file():
         plots["ida"] = _ida(folder / RESULT)
     for name, file in (("fragility", folder / FRAGILITY / "fragility.json"), ("growing", folder / GROWING)):
         if file.is_file() and "fragility" not in plots:

@@ -23,7 +23,7 @@ from stylobate.messages import Message, filled, say
 from stylobate.probability.states import NO_MEASURE
 from stylobate.text_tables import printable, read_bytes
 
-from .numbers import IN_JOINT, SPANNING
+from .numbers import BETWEEN, IN_JOINT, SPANNING
 from .page import Code, Exact, Facts, Item, Note, Picture, Points, Section
 
 #: Languages whose catalogues come with the package; a report is written in English and needs none.
@@ -114,6 +114,9 @@ class Language:
             return self.say(say(f"{{kind}} from {start} to drum {{upper}}", **known | {"kind": say(known["kind"])}))
         if link := IN_JOINT.fullmatch(text):
             return self.say(say("{kind} in joint {joint}", kind=say(link[1]), joint=link[2])) + link[3]
+        if link := BETWEEN.fullmatch(text):
+            words = say("{kind} between {one} and {other}", kind=say(link[1]), one=link[2], other=link[3])
+            return self.say(words) + link[4]
         if text in self.own or not WORD.search(text):
             return text
         if len(pair := text.split(" – ")) == 2:  # a joint, by what it lies between

@@ -11,9 +11,10 @@ from stylobate.messages import Message, digits, joined, say
 
 from .page import Exact
 
-#: Names of links that have none of the reader's: of what spans drums, and of what lies in a joint, with a number where
-#: the joint has several.
+#: Names of links that have none of the reader's: of what spans drums, of what is between two blocks, and of what lies in a
+#: joint; with a number where there are several.
 SPANNING = re.compile(r"(?P<kind>\w+) from (?:the base|drum (?P<lower>\d+)) to drum (?P<upper>\d+)")
+BETWEEN = re.compile(r"(clamp|dowel|tie|bar|layer|pad|core) between (.+) and (.+?)((?:, \d+)?)")
 IN_JOINT = re.compile(r"(dowel|bar|layer|pad) in joint (\d+)((?:, \d+)?)")
 
 #: Text where there is no value.
@@ -69,7 +70,7 @@ def plain(value: Any) -> str:
         )
     if isinstance(value, (Message, Exact)):
         return value
-    if isinstance(value, str) and (SPANNING.fullmatch(value) or IN_JOINT.fullmatch(value)):
+    if isinstance(value, str) and any(form.fullmatch(value) for form in (SPANNING, BETWEEN, IN_JOINT)):
         return value
     return say(value) if isinstance(value, str) and re.fullmatch("[A-Za-z -]+", value) else Exact(value)
 
@@ -108,5 +109,6 @@ WORDS = (
     "limit analysis g|pattern|direction|collapse|share low|share high|use|use high|difference low|"
     "difference high|alike|candidate|bits alone|bits beside others|sigma ln edp|reversed|amplitudes|"
     "frequencies|duration|bending|across|torsion|axial|opens|slides|twists|number|frequency|standard deviation|"
-    "bent joint|holds to|limited by|best"
+    "bent joint|holds to|limited by|best|first|second|comparable|differing|only first collapses|only second collapses|"
+    "prior weight|weight error|weight if own|weight if shared|probability low|probability high|lift|reach|annual rate"
 )

@@ -839,7 +839,7 @@ def _placed_between(
         numbers = replace(numbers, lift=math.inf)
     if math.isfinite(numbers.lift):
         where["stroke"] = numbers.lift
-    between = say("{kind} between {l.between[0]} and {l.between[1]}", kind=say(link.kind), l=link)
+    between = say("{kind} between {one} and {other}", kind=say(link.kind), one=link.between[0], other=link.between[1])
     called = link.name or between
     return placed(
         numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,

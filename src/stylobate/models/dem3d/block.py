@@ -13,6 +13,7 @@ import numpy as np
 
 from ...column import Column
 from ...kernels.shared.records import LANE, STATE
+from ...messages import say
 from ...motion import Motion
 from ...response import Collapse
 from ...response.collapse import OVERTURNED, SLID_OFF, what_is_lost
@@ -303,4 +304,8 @@ class SpaceBlock(LaneRuns):
     def lost(self, collapse: Collapse, column: Any) -> str:
         """Fallen bodies, and their places, in words."""
         azimuth = math.degrees(collapse.azimuth or 0.0)
-        return f"{self.bodies.lost(collapse, column)}, towards azimuth {round(azimuth) % 360}° (from x towards y)"
+        return say(
+            "{lost}, towards azimuth {azimuth}° (from x towards y)",
+            lost=self.bodies.lost(collapse, column),
+            azimuth=round(azimuth) % 360,
+        )

@@ -13,6 +13,7 @@ from ...column import Column
 from ...constants import LONGEST_WAIT
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, RUNNING
+from ...messages import say
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, LinkMeasures, Measures
@@ -215,7 +216,8 @@ class LaneRuns:
 
     def lost(self, collapse: Collapse, column: Any) -> str:
         """Fallen bodies, and their places, in words."""
-        return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"
+        towards = say("{lost}, to the left") if collapse.side == "left" else say("{lost}, to the right")
+        return towards.of(lost=what_is_lost(collapse, column.n))
 
     def stay(self, lanes: list[int], energy: np.ndarray, slip: np.ndarray) -> np.ndarray:
         """Whether what stands in lanes with so much energy above that at rest [J] stands for good, shape (lanes,).
@@ -557,7 +559,7 @@ class LaneRuns:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
         if outcome is Outcome.FAILED:
             if self.watch["status"][0, lane] == FAILED:
-                return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
+                return say("the state is not finite at {time:.4g} s; try a smaller step_factor", time=self.time(lane))
             return ledger.out_of_balance(imbalance) or ledger.SET_OFF
         if outcome is not Outcome.COLLAPSED:
             return ""

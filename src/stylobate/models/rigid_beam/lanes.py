@@ -12,6 +12,7 @@ import numpy as np
 from ...column import Column
 from ...kernels.rigid_beam import step as kernel
 from ...kernels.run_codes import CHUNK, FAILED, FREE, LANES, RUNNING
+from ...messages import say
 from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import Case, RunOptions
@@ -181,7 +182,8 @@ class BeamLanes:
         failed = watch["status"] == FAILED
         row, largest = self._ledger(lane, energies), float(watch["wmax"])
         time = float(watch["when"]) * self.dt[lane]
-        failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
+        not_finite = say("the state is not finite at {time:.4g} s; shorten the time_step")
+        failure = not_finite.of(time=self.time(lane)) if failed else ""
         at_end = self.drum["te"][1:-1, lane]
         after = time > loaded[0].motion.duration and beam.inside(at_end, np.zeros_like(at_end))
         return measures_of(

@@ -11,10 +11,11 @@ import numpy as np
 from ...column import Column
 from ...errors import InputError
 from ...kernels.rigid_beam import moment_law
+from ...messages import say
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
-from ...response.collapse import OVERTURNED, in_plane
+from ...response.collapse import OVERTURNED, in_plane, part_on
 from ...response.residuals import Residuals
 from ..shared import ledger
 from ..shared.ground import ground_histories
@@ -363,21 +364,24 @@ class Passes:
                 work = -(self.column.joint_weights * self.friction * margin)[hanging]
                 joint = int(hanging[int(np.argmax(work))]) + 1
                 gone = bool(reach < work.max())
-                why = f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
+                why = say(
+                    "the centroid of {part} has slid beyond the edge of joint {joint}",
+                    part=self.part(joint),
+                    joint=joint,
+                )
                 return gone, gone, why if gone else "", joint if gone else 0
         if reach >= (self.lowest(slip) if self.sliding else self.lowest_unslid):
             return False, False, "", 0
         lost = not self.inside(theta, slip)
-        return lost, True, "beyond the lowest barrier when the input ends" if lost else "", 0
+        return lost, True, say("beyond the lowest barrier when the input ends") if lost else "", 0
 
     def part(self, joint: int) -> str:
         """Name of all that stands on a joint, counted from 1."""
-        n = self.column.n
-        return "the whole column" if joint == 1 else f"drums {joint} to {n}" if joint < n else f"drum {n}"
+        return part_on(joint, self.column.n)
 
 
 #: Why a column that falls by itself has no verdict: the motion has no part in it.
-TOO_SOFT = "the joints are too soft to hold the column upright under its own weight; raise normal_stiffness"
+TOO_SOFT = say("the joints are too soft to hold the column upright under its own weight; raise normal_stiffness")
 
 
 @dataclass(frozen=True, eq=False)
@@ -458,13 +462,16 @@ def measures_of(beam: PackedBeam, facts: dict) -> Measures:
     )  # fmt: skip
     state = (*facts["theta"], *facts["slip"], facts["energy"], imbalance)
     if not failure and not all(map(math.isfinite, state)):
-        failure = f"the state is not finite at {facts['end']:.4g} s; shorten the time_step"
+        failure = say("the state is not finite at {time:.4g} s; shorten the time_step", time=facts["end"])
     failure = failure or ledger.out_of_balance(imbalance)
     collapsed, decided, reason, joint = False, False, failure, 0
     if not failure and facts["lost"]:
         collapsed, decided = True, True
-        side = "right" if facts["side"] > 0 else "left"
-        reason = f"{beam.part(facts['lost'])} overturns to the {side} over joint {facts['lost']}"
+        right, left = (
+            say("{part} overturns to the right over joint {joint}"),
+            say("{part} overturns to the left over joint {joint}"),
+        )
+        reason = (right if facts["side"] > 0 else left).of(part=beam.part(facts["lost"]), joint=facts["lost"])
     elif not failure:
         collapsed, decided, reason, joint = beam.verdict(facts)
     if collapsed and not beam.reached(facts["start"] + facts["given"], beam.initial_rotation):

@@ -172,7 +172,7 @@ class RockingBlock:
             energy_imbalance=imbalance,
             time_step=step,
             steps=steps,
-            reason=failure or ("overturns as one block" if collapsed else ""),
+            reason=failure or (say("overturns as one block") if collapsed else ""),
             residuals=Residuals.of_one(0.0, along, up, side * x),
             collapse=in_plane(collapse_time if overturned else end, 1, side) if collapsed else None,
         )

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...messages import say
+
 #: Terms of a ledger.
 TERMS = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
 
@@ -18,13 +20,13 @@ TERMS = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
 LARGEST_IMBALANCE = 0.25
 
 #: Why a run has failed whose column overturns without the energy for it.
-MADE_ENERGY = (
+MADE_ENERGY = say(
     "the column overturns by energy that the steps have made: its input never was enough; shorten the time_step"
 )
 
 
 #: Why a run has failed in which what was at rest moves.
-SET_OFF = "what lay at rest began to move though the ground did nothing; shorten the time_step"
+SET_OFF = say("what lay at rest began to move though the ground did nothing; shorten the time_step")
 
 
 #: A ledger, as an array or as floats.
@@ -66,7 +68,11 @@ def out_of_balance(share: float, allowed: float = LARGEST_IMBALANCE) -> str:
     """Why a run with this energy imbalance has failed; empty if it has not. A share that is not finite is no balance."""
     if share <= allowed:
         return ""
-    return f"the energy ledger is out of balance by {share:.2g} (allowed is {allowed}); shorten the time_step"
+    return say(
+        "the energy ledger is out of balance by {share:.2g} (allowed is {allowed}); shorten the time_step",
+        share=share,
+        allowed=allowed,
+    )
 
 
 #: At rest: for so long [s], no more kinetic energy than this share of what the weight stores in the contacts.

@@ -54,6 +54,8 @@ def fetch(
     centre = DataCentre(service)
     if Path(earthquake).is_file():
         event, quakeml = read_earthquake(earthquake), Path(earthquake).read_bytes()
+    elif Path(earthquake).suffix.lower() in (".xml", ".quakeml"):
+        raise InputError(f"there is no file {earthquake}; check its name and folder.", "earthquake")
     else:
         catalogue = centre if events is None else DataCentre(events)
         event, quakeml = catalogue.earthquake(earthquake)

@@ -46,7 +46,7 @@ def report(
         return
     if not folders or out is None:
         raise InputError(
-            "give the folders of the results and `out=FILE.html`, or `translation_template=FILE.toml` alone.", "out"
+            "give the folders of the results and `out=FILE.html`, or `translation_template=FILE.po` alone.", "out"
         )
     signed = None if project is None else read_project(project)
     if pdf:
