@@ -43,8 +43,8 @@ def test_what_pretension_stores(model, drums):
     """
     block = loaded(model, [core()], drums)
     joint = PULL**2 / (2.0 * 1e7 * 0.25)
-    assert block.held_by_links(0) == pytest.approx(PULL**2 / (2.0 * AXIAL) + drums * joint, rel=1e-6)
-    assert loaded(model, [st.Core(axial_stiffness=AXIAL)], drums).held_by_links(0) == 0.0
+    assert block.link_energy(0) == pytest.approx(PULL**2 / (2.0 * AXIAL) + drums * joint, rel=1e-6)
+    assert loaded(model, [st.Core(axial_stiffness=AXIAL)], drums).link_energy(0) == 0.0
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)

@@ -306,7 +306,7 @@ def test_runs_are_counted_and_certainty_is_what_its_domains_say(made):
     folder, summary, _ = made
     results = run_study(folder, True, 1, grids=GRIDS)
     single, population = 6 * (4 + 2) + 2 * 3 + 4 * len(GRIDS.variants), 3 * 6
-    tested = len(literature.ASKED) * literature.NUMBER
+    tested = len(literature.QUESTIONS) * literature.NUMBER
     space = 2 * (3 * 2 + 4)  # two cells: three populations of two columns, four plane domains
     assert (
         summary["runs"] == results.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4 + tested

@@ -320,11 +320,11 @@ def test_notebook_fragility(run):
 
 def test_worth_it(run):
     # The core closes what rocking opens: it saves a third of the runs and harms none. The dowels are within chance.
-    dowels, core = run("worth_it")["found"].differences
+    dowels, core = run("worth_it")["comparison"].differences
     assert core.share_high < -0.15
     assert core.harmed <= 1 < 10 < core.saved
     assert abs(dowels.share) < 0.15
-    assert run("worth_it")["found"].links.set_index("state").loc["core", "broken"] == 0
+    assert run("worth_it")["comparison"].links.set_index("state").loc["core", "broken"] == 0
 
 
 def test_what_shaking(run):

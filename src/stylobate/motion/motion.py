@@ -256,7 +256,7 @@ class Motion:
                 "factor.",
                 "pga",
             )
-        return self.scaled(value / self.pga).replace(name=f"{self.name} · {value / g:g} g")
+        return self.scaled(value / self.pga).replace(name=f"{self.name}, scaled to {value / g:g} g")
 
     def without_vertical(self) -> Motion:
         """A copy without its vertical component."""

@@ -299,7 +299,7 @@ class MotionRequest:
                     known = _direction(variant, motion.name) | ({} if azimuth is None else {"azimuth": azimuth})
                     variant = variant.replace(metadata={**variant.metadata, "direction": known})
                 if len(self.azimuths) > 1:
-                    variant = variant.replace(name=f"{variant.name} · {azimuth:g}°")
+                    variant = variant.replace(name=f"{variant.name} at {azimuth:g}°")
                 ready += [variant, _reversed(variant, motion.name)] if self.signs == "both" else [variant]
             for step in self.condition:
                 ready = conditioned_alike(ready, step)
@@ -322,7 +322,7 @@ class MotionRequest:
             size = say("{peak:g} g", peak=self.pga / g)
             text = say("multiplied by {times:.4g}: scaled to a peak of {size} along x", times=times, size=size)
             if len(self.azimuths) > 1:
-                motion = motion.scaled(times).replace(name=f"{motion.name} · {size}")
+                motion = motion.scaled(times).replace(name=f"{motion.name}, scaled to {size}")
                 text = say("{step}, that of the strongest of these directions", step=text)
             else:
                 motion = motion.scaled_to_pga(self.pga)
@@ -366,7 +366,7 @@ def _reversed(motion: Motion, record: str) -> Motion:
     return motion.replace(
         ax=-motion.samples,
         ay=None if y is None else -y,
-        name=f"{motion.name} · −x",
+        name=f"{motion.name} reversed",
         metadata={**motion.metadata, "direction": direction} | ({"azimuths": azimuths} if azimuths else {}),
         processing=(*motion.processing, say("horizontal components reversed")),
     )

@@ -212,7 +212,7 @@ def _statistic(kind: str, name: str) -> str:
     InputError
         It is no curve of exceedance, such as a standard deviation.
     """
-    match = _STATISTIC.fullmatch(kind)
+    match = _STATISTIC.fullmatch(kind if "~" in kind else kind.lower())
     if kind and match is None:
         raise InputError(
             f"{name} is of the kind {kind!r}; allowed are curves of exceedance (mean, median, quantile-…, max, rlz-…), "
@@ -224,7 +224,7 @@ def _statistic(kind: str, name: str) -> str:
         return say("quantile {share:g}", share=float(match["quantile"]))
     if match["number"]:
         return say("realisation {count}", count=int(match["number"]))
-    return _WORDS.get(kind, say("branch {name}", name=kind) if match["branch"] else say(kind))
+    return _WORDS.get(match[0], say("branch {name}", name=kind) if match["branch"] else say(match[0]))
 
 
 def _openquake(name: str, comments: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
@@ -318,14 +318,14 @@ def _nrml(name: str, text: str, site: tuple[float, float] | None) -> Hazard:
     poe = numbers(each[_nearest(name, len(each), places, site)], "poEs")
     if len(poe) != len(im):
         raise InputError(f"{name} has {len(im)} intensities and {len(poe)} probabilities; mend the file.")
-    period, kind = curve_set.get("saPeriod"), curve_set.get("statistics", "").lower()
+    period, kind = curve_set.get("saPeriod"), curve_set.get("statistics", "")
     if kind == "quantile":
         kind += f"-{curve_set.get('quantileValue', '')}"
     elif not kind and curve_set.get("sourceModelTreePath"):
         kind = f"{curve_set.get('sourceModelTreePath')}~{curve_set.get('gsimTreePath', '')}"
     imt, damping = curve_set.get("IMT", ""), curve_set.get("saDamping")
     if damping and _number(f"saDamping of {name}", 1, [damping], 0) not in (0.05, 5.0):
-        raise InputError(f"{name} is of a damping of {damping} (saDamping); allowed is 5 %, of which `sa` is here.")
+        raise InputError(f"{name} is of a damping of {damping} (saDamping); allowed is 5 %, that of all spectra here.")
     if period:
         imt += f"({_number(f'saPeriod of {name}', 1, [period], 0):g})"
     return _of_chances(name, imt, _statistic(kind, name), time, im, poe)

@@ -24,6 +24,7 @@ from ..column.assembly_files import FROM_DICT
 from ..column.shapes import hull
 from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
+from ..messages import MESSAGES, messages_in, restored
 from ..outcome import Outcome
 from .collapse import Collapse
 from .histories import Histories
@@ -517,6 +518,7 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         "blocks": None if m.blocks is None else dataclasses.asdict(m.blocks),
         "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
         "followed": response.followed,
+        MESSAGES: messages_in({"reason": m.reason}),
     }
     if m.stepped is not None:
         facts["stepped"] = list(m.stepped)
@@ -546,7 +548,8 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
     attributes |= {"outcome": m.outcome.label}
     for field, name in _ATTRIBUTES.items():
         value = getattr(m, field)
-        attributes[name] = int(value) if isinstance(value, (bool, np.bool_, np.integer)) else value
+        number = isinstance(value, (bool, np.bool_, np.integer))
+        attributes[name] = int(value) if number else str.__str__(value) if isinstance(value, str) else value
     return xarray.Dataset(labelled, coordinates, attributes)
 
 
@@ -637,7 +640,7 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     return Recorded(
         structure,
         histories,
-        _measures(data.attrs, **parts),
+        _measures(restored(data.attrs, facts.get(MESSAGES, {})), **parts),
         str(data.attrs["model"]),
         provenance,
         float(data.attrs["wall_s"]),

@@ -86,7 +86,7 @@ class JobAnswers:
             with suppress(RuntimeError):  # the loop has ended
                 loop.call_soon_threadsafe(self._ring)
 
-        self.workshop.told = notify
+        self.workshop.notify = notify
 
     def close(self) -> None:
         """End the lines on which news are told."""

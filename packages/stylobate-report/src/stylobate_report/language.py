@@ -19,11 +19,11 @@ from typing import Any
 
 from stylobate.atomic import replacing
 from stylobate.errors import InputError
-from stylobate.messages import Message, filled, say
+from stylobate.messages import Message, filled, joined, say
 from stylobate.probability.states import NO_MEASURE
 from stylobate.text_tables import printable, read_bytes
 
-from .numbers import BETWEEN, IN_JOINT, SPANNING
+from .numbers import BETWEEN, IN_JOINT, SPANNING, TURNED
 from .page import Code, Exact, Facts, Item, Note, Picture, Points, Section
 
 #: Languages whose catalogues come with the package; a report is written in English and needs none.
@@ -117,6 +117,11 @@ class Language:
         if link := BETWEEN.fullmatch(text):
             words = say("{kind} between {one} and {other}", kind=say(link[1]), one=link[2], other=link[3])
             return self.say(words) + link[4]
+        if (motion := TURNED.fullmatch(text)) and any(motion.groups()[1:]):
+            record, azimuth, back, peak = motion.groups()
+            turned = say("at {azimuth:g}°", azimuth=float(azimuth)) if azimuth else ""
+            scaled = say("scaled to {peak:g} g", peak=float(peak)) if peak else ""
+            return self.say(joined(", ", [joined(" ", [record, turned, say("reversed") if back else ""]), scaled]))
         if text in self.own or not WORD.search(text):
             return text
         if len(pair := text.split(" – ")) == 2:  # a joint, by what it lies between

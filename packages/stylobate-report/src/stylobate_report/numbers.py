@@ -11,6 +11,9 @@ from stylobate.messages import Message, digits, joined, say
 
 from .page import Exact
 
+#: Name of a motion that a request has turned, reversed or scaled: that of its record, azimuth, reversed, peak [g].
+TURNED = re.compile(r"(.+?)(?: at (-?[\d.]+)°)?( reversed)?(?:, scaled to ([\d.e+-]+) g)?")
+
 #: Names of links that have none of the reader's: of what spans drums, of what is between two blocks, and of what lies in a
 #: joint; with a number where there are several.
 SPANNING = re.compile(r"(?P<kind>\w+) from (?:the base|drum (?P<lower>\d+)) to drum (?P<upper>\d+)")

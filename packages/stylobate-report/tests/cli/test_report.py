@@ -380,7 +380,7 @@ OLD = bytes(68) + APPLICATION.to_bytes(4) + bytes(28)
         (lambda d: d / "none", "there is no folder"),
         (lambda d: (d / "empty").mkdir() or d / "empty", "is empty"),
         (lambda d: (d / "notes.txt").write_text("x") and d, "holds no result of stylobate"),
-        (lambda d: (d / "runs.sqlite").write_text("x") and d, "holds a command's work that is not finished"),
+        (lambda d: (d / "runs.sqlite").write_text("x") and d, "holds runs of a command that has written no result"),
         (lambda d: (d / "progress.sqlite").write_bytes(OLD) and d, "unfinished runs of an earlier version"),
         (lambda d: (d / "notes.txt").write_text("x") and d / "notes.txt", "is a file"),
         (lambda d: (d / "limit.json").write_text("{") and d, "no JSON"),
