@@ -28,9 +28,10 @@ def common_runs() -> None:
     import stylobate as st
     from stylobate.cli.main import call
 
-    for model in ("dem2d", "dem3d", "rigid-block", "rigid-beam"):
-        code = call(["run", "paper-12-drums", "--model", model, "--harmonic", "1.0Hz,0.3g,0.5s", "--json"])
-        assert code == 0, model
+    square_drums = [("paper-12-drums", model) for model in ("dem2d", "dem3d", "rigid-block", "rigid-beam")]
+    for column, model in (*square_drums, ("parthenon", "dem3d")):
+        code = call(["run", column, "--model", model, "--harmonic", "1.0Hz,0.3g,0.5s", "--json"])
+        assert code == 0, (column, model)
     joint = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
     drums = {"height": 1.8, "bottom_width": 0.5, "top_width": 0.4, "drums": 3, "density": 2500.0, "joint": joint}
     square, round_ = (st.Column.tapered(section=section, **drums) for section in ("rectangular", "circular"))
