@@ -72,7 +72,7 @@ def _print_catalogue(known: list[KnownColumn]) -> None:
 
     from . import console
 
-    def shown(column: KnownColumn, name: str) -> str:
+    def figure_in_words(column: KnownColumn, name: str) -> str:
         figure = column.figures[name]
         return f"{figure.value:.4g}" + ("" if figure.measured else "*")
 
@@ -84,7 +84,9 @@ def _print_catalogue(known: list[KnownColumn]) -> None:
         "density": "kg/m³",
     }
     rows = [
-        {"column": column.name} | {head: shown(column, name) for name, head in heads.items()} | {"what": column.title}
+        {"column": column.name}
+        | {head: figure_in_words(column, name) for name, head in heads.items()}
+        | {"what": column.title}
         for column in known
     ]
     console.print_table(pandas.DataFrame(rows))

@@ -744,5 +744,5 @@ def _words(best: str | None, alike: Sequence[str], number: int, records: int, st
     if not others:
         return sentence + say("; the others are worse or reach their capacity.")
     more = say("; {others} more cannot be told from it under {records}{few}.")
-    of = say("one record") if records == 1 else say("{records} records", records=records)
-    return sentence + more.of(others=others, records=of, few=few)
+    counted_records = say("one record") if records == 1 else say("{records} records", records=records)
+    return sentence + more.of(others=others, records=counted_records, few=few)

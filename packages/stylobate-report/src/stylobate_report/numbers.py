@@ -12,7 +12,7 @@ from stylobate.messages import Message, digits, joined, say
 from .page import Exact
 
 #: Name of a motion that a request has turned, reversed or scaled: that of its record, azimuth, reversed, peak [g].
-TURNED = re.compile(r"(.+?)(?: at (-?[\d.]+)°)?( reversed)?(?:, scaled to ([\d.e+-]+) g)?")
+TURNED = re.compile(r"(.+?)(?: at (-?\d+(?:\.\d+)?)°)?( reversed)?(?:, scaled to (\d+(?:\.\d+)?(?:e[+-]\d+)?) g)?")
 
 #: Names of links that have none of the reader's: of what spans drums, of what is between two blocks, and of what lies in a
 #: joint; with a number where there are several.

@@ -100,6 +100,7 @@ def test_what_has_no_translation_is_told_and_names_are_not():
         "perno nel giunto 2",
     ]
     assert language.say("r.csv at 75° reversed, scaled to 0.5 g") == "r.csv a 75° invertito, scalato a 0.5 g"
+    assert language.say("scan at 1.2.3°") == "scan at 1.2.3°"
     assert language.say("clamp between west and column 3, drum 5") == "grappa tra west e colonna 3, rocco 5"
     assert language.say(say("“{state}” stands", state="as built")) == "“come costruita” stands"
     language.missing.clear()

@@ -88,16 +88,16 @@ class Records(LaneRecords):
         """Axes of every body as the columns of a matrix [-], shape (…, n, 3, 3)."""
         matrices = np.empty((*np.shape(lane), len(self.body) - 1, 3, 3))
         for axis, a in enumerate("ijk"):
-            self._put(matrices[..., axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
+            self._copy_fields(matrices[..., axis], lane, (f"{a}x", f"{a}y", f"{a}z"))
         return matrices
 
     def vectors(self, lane: int | np.ndarray, names: str) -> np.ndarray:
         """Vectors of all bodies but the base, by the names of their fields, shape (…, n, 3)."""
         values = np.empty((*np.shape(lane), len(self.body) - 1, 3))
-        self._put(values, lane, names.split())
+        self._copy_fields(values, lane, names.split())
         return values
 
-    def _put(self, target: np.ndarray, lane: int | np.ndarray, names: Sequence[str]) -> None:
+    def _copy_fields(self, target: np.ndarray, lane: int | np.ndarray, names: Sequence[str]) -> None:
         for c, name in enumerate(names):
             target[..., c] = self.body[name][1:, lane].T
 

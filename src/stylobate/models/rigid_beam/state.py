@@ -366,7 +366,7 @@ class Passes:
                 gone = bool(reach < work.max())
                 why = say(
                     "the centroid of {part} has slid beyond the edge of joint {joint}",
-                    part=self.part(joint),
+                    part=part_on(joint, self.column.n),
                     joint=joint,
                 )
                 return gone, gone, why if gone else "", joint if gone else 0
@@ -374,10 +374,6 @@ class Passes:
             return False, False, "", 0
         lost = not self.inside(theta, slip)
         return lost, True, say("beyond the lowest barrier when the input ends") if lost else "", 0
-
-    def part(self, joint: int) -> str:
-        """Name of all that stands on a joint, counted from 1."""
-        return part_on(joint, self.column.n)
 
 
 #: Why a column that falls by itself has no verdict: the motion has no part in it.
@@ -471,7 +467,9 @@ def measures_of(beam: PackedBeam, facts: dict) -> Measures:
             say("{part} overturns to the right over joint {joint}"),
             say("{part} overturns to the left over joint {joint}"),
         )
-        reason = (right if facts["side"] > 0 else left).of(part=beam.part(facts["lost"]), joint=facts["lost"])
+        reason = (right if facts["side"] > 0 else left).of(
+            part=part_on(facts["lost"], beam.column.n), joint=facts["lost"]
+        )
     elif not failure:
         collapsed, decided, reason, joint = beam.verdict(facts)
     if collapsed and not beam.reached(facts["start"] + facts["given"], beam.initial_rotation):

@@ -52,7 +52,7 @@ def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: b
     for j, amplitude in enumerate(a[::-1]):
         for i, frequency in enumerate(f):
             axes, case = grid[j, i], histories.sel(frequency=frequency, amplitude=amplitude)
-            top, base = (_shown(case, name, column, absolute) for name in ("top", "base"))
+            top, base = (_panel_displacement(case, name, column, absolute) for name in ("top", "base"))
             verdict = v.VERDICTS[int(case["verdict"])]
             zero_line(axes)
             axes.plot(time, top, color=BLACK, linestyle=(0, (3.0, 1.0)), linewidth=0.7)
@@ -91,7 +91,7 @@ def draw_history_grid(histories: Any, column: Column, title: str, *, absolute: b
     return figure
 
 
-def _shown(case: Any, name: str, column: Column, absolute: bool) -> np.ndarray:
+def _panel_displacement(case: Any, name: str, column: Column, absolute: bool) -> np.ndarray:
     """A displacement of a case in what its panel is drawn in; where the column falls, no further than that shows."""
     if absolute:
         ground = case["ground"].values
